@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Kernels of positional accuracy on numpy arrays."""

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: MIT
+"""One delivery, audited: read, check, evaluate. The whole flow on a page."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+import scipy
+import shapely
+
+from foparq import __version__
+from foparq.check.delivered_features import count_features
+from foparq.check.run import check_drawing
+from foparq.check.validate import validate_checks
+from foparq.errors import ManifestError
+from foparq.evaluate.evaluate import evaluate
+from foparq.findings.table import join_findings
+from foparq.model.delivery import Delivery
+from foparq.profile.load import load_manifest, load_profile
+from foparq.profile.schema import Profile
+from foparq.read.delivery import read_delivery, read_loose
+from foparq.read.versions import reader_versions
+from foparq.report.record import AuditRecord
+from foparq.units import parse_scale
+
+MANIFEST = "delivery.toml"
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Audit:
+    """A finished audit and the log of what went wrong on our side."""
+
+    record: AuditRecord
+    log: tuple[str, ...]
+
+
+def find_manifest(place: Path) -> Path:
+    """Manifest of a delivery given as folder or manifest.
+
+    Raises
+    ------
+    ManifestError
+        If there is none.
+    """
+    if place.is_dir():
+        place = place / MANIFEST
+        if not place.is_file():
+            raise ManifestError("manifest.none", file=str(place.parent), example=f'foparq init "{place.parent}"')
+    elif not place.is_file():
+        raise ManifestError("manifest.missing", file=str(place), example="foparq audit fixtures/deliveries/station-a")
+    elif place.suffix.lower() != ".toml":
+        raise ManifestError("manifest.not-toml", file=str(place), example=f'foparq check "{place}"')
+    return place
+
+
+def audit(
+    place: Path, *, language: str | None = None, otherwise: str = "en", progress: Progress | None = None
+) -> Audit:
+    """Audit one delivery.
+
+    Parameters
+    ----------
+    place : Path
+        The delivery's folder, or its manifest.
+    language : str, optional
+        Language of the reports; the manifest's if left out.
+    otherwise : str
+        Language if the manifest names none.
+    progress : callable, optional
+        Told what is being done.
+
+    Returns
+    -------
+    Audit
+
+    Raises
+    ------
+    UsageError
+        If the manifest or the profile is wrong. Faults of the delivery never raise.
+    """
+    path = find_manifest(place)
+    manifest = load_manifest(path)
+    profile = load_profile(manifest.delivery.profile, path.parent)
+    validate_checks(profile)
+    stated = manifest.delivery.scale or profile.scale
+    scale = parse_scale(stated) if stated else None
+    if scale is None:
+        raise ManifestError("manifest.no-scale", file=str(path), line=1, key="delivery.scale", example='scale = "1:50"')
+    delivery, log = read_delivery(path.parent, manifest, path.name, profile=profile, scale=scale, progress=progress)
+    spoken = language or manifest.delivery.language or otherwise
+    return _judged(delivery, log, profile, scale, spoken, progress, loose=False)
+
+
+def check_files(
+    paths: Sequence[Path], *, profile: Profile, scale: float | None, unit: str | None, plane: str,
+    areas: tuple[str, ...], language: str, progress: Progress | None = None,
+) -> Audit:  # fmt: skip
+    """Check loose drawings without a manifest; there is no verdict on a delivery.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+    profile : Profile
+    scale : float or None
+        Denominator k of the drawing scale 1:k.
+    unit : str or None
+        What one drawing unit is; ``None``: as the file says.
+    plane : str
+        ``"xy"``, ``"xz"``, ``"yz"`` or ``"fit"``.
+    areas : tuple of str
+        Patterns of the layers whose closed lines bound areas of a coverage.
+    language : str
+    progress : callable, optional
+
+    Returns
+    -------
+    Audit
+    """
+    validate_checks(profile)
+    delivery, log = read_loose(
+        paths, profile=profile, scale=scale, unit=unit, plane=plane, areas=areas, progress=progress
+    )
+    return _judged(delivery, log, profile, scale, language, progress, loose=True)
+
+
+def _judged(
+    delivery: Delivery, log: Sequence[str], profile: Profile, scale: float | None, language: str,
+    progress: Progress | None, *, loose: bool,
+) -> Audit:  # fmt: skip
+    started = datetime.now(UTC).isoformat(timespec="seconds")
+    checked = [check_drawing(drawing, profile, scale, progress) for drawing in delivery.drawings]
+    outcomes = tuple(outcome for one in checked for outcome in one.outcomes)
+    gap = profile.completeness.gap.si(scale) if profile.completeness and not loose else None
+    counts = count_features(delivery.drawings, gap=gap) if gap is not None else None
+    traces = (*log, *(trace for one in checked for trace in one.log))
+    record = AuditRecord(
+        delivery=delivery,
+        quality=evaluate(profile, scale, delivery, outcomes, counts, crashed=bool(traces)),
+        outcomes=outcomes,
+        findings=join_findings([one.findings for one in checked]),
+        profile=profile.name,
+        profile_title=profile.title.get(language, profile.name),
+        profile_sha256=profile.sha256,
+        product_class=profile.product_class,
+        scale=scale,
+        language=language,
+        loose=loose,
+        started=started,
+        versions=versions(),
+        norms=profile.norms,
+        written=profile.limits.written,
+    )
+    return Audit(record=record, log=traces)
+
+
+def versions() -> dict[str, str]:
+    """Versions of everything that decides a result."""
+    return {
+        "foparq": __version__,
+        "GEOS": shapely.geos_version_string,
+        **reader_versions(),
+        "shapely": shapely.__version__,
+        "numpy": np.__version__,
+        "scipy": scipy.__version__,
+    }

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: MIT
+"""The record of a rule and the decorator that makes one.
+
+A rule is a pure function over columns. Its signature is its declaration: the one positional parameter is the input,
+by type; keyword-only parameters are tolerances, by unit.
+"""
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
+
+from foparq.errors import RuleError
+from foparq.findings.hits import Hits
+from foparq.units import Unit
+
+Check = Callable[..., Hits]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rule:
+    """A check that foparq can run."""
+
+    code: str  #: ``"TOP021"``, never reused
+    name: str  #: ``"undershoot"``: names the fault, reads after "allow ..."
+    check: Check
+    subject: type  #: input, one of the types of ``model.inputs``
+    tolerances: tuple[tuple[str, str], ...]  #: name and SI unit, in order of the signature
+    size_unit: str  #: SI unit of ``Hits.size``: ``"m"``, ``"m2"``, ``"items"``, ``"1"``
+    limit: str  #: the tolerance that a finding exceeds, or misses; ``""`` if none
+    measures: tuple[str, ...]  #: ISO 19157 measure ids this rule can feed
+    requires: tuple[str, ...]  #: codes; an item on which one of them found a fault is set aside
+    preview: bool  #: reported, cannot reject
+
+    @property
+    def fault(self) -> str:
+        """The fault in one line: first line of the docstring."""
+        return inspect.cleandoc(self.check.__doc__ or "").split("\n", 1)[0]
+
+    @property
+    def manual(self) -> str:
+        """The docstring: what ``foparq explain`` prints."""
+        return inspect.cleandoc(self.check.__doc__ or "")
+
+
+def rule(
+    code: str,
+    name: str,
+    *,
+    size: str = "m",
+    limit: str = "",
+    measures: tuple[str, ...] = (),
+    requires: tuple[str, ...] = (),
+    preview: bool = False,
+) -> Callable[[Check], Check]:
+    """Declare a function as a rule.
+
+    Parameters
+    ----------
+    code, name : str
+        Three letters and three digits; kebab-case name of the fault.
+    size : str
+        SI unit of the magnitude of a hit.
+    limit : str
+        Name of the tolerance that a finding is judged by.
+    measures : tuple of str
+        ISO 19157 measure ids.
+    requires : tuple of str
+        Codes of rules whose faulty items this rule does not look at.
+    preview : bool
+        True until the rule was compared over a corpus.
+
+    Returns
+    -------
+    decorator
+        Leaves the function as it is and attaches the record as ``function.rule``.
+
+    Raises
+    ------
+    RuleError
+        If the signature is not one input followed by keyword-only tolerances without defaults.
+    """
+
+    def declare(check: Check) -> Check:
+        subject, tolerances = _read_signature(check, code)
+        if limit and limit not in dict(tolerances):
+            raise RuleError("rule.limit", code=code, limit=limit)
+        record = Rule(
+            code=code, name=name, check=check, subject=subject, tolerances=tolerances, size_unit=size, limit=limit,
+            measures=measures, requires=requires, preview=preview,
+        )  # fmt: skip
+        check.rule = record  # type: ignore[attr-defined]
+        return check
+
+    return declare
+
+
+def _read_signature(check: Check, code: str) -> tuple[type, tuple[tuple[str, str], ...]]:
+    hints: dict[str, Any] = get_type_hints(check, include_extras=True)
+    inputs: list[Any] = []
+    tolerances: list[tuple[str, str]] = []
+    for parameter in inspect.signature(check).parameters.values():
+        hint = hints.get(parameter.name)
+        if parameter.kind is not inspect.Parameter.KEYWORD_ONLY:
+            inputs.append(hint)
+        elif parameter.default is not inspect.Parameter.empty:
+            raise RuleError("rule.default", code=code, parameter=parameter.name)
+        elif get_origin(hint) is Annotated and isinstance(unit := get_args(hint)[1], Unit):
+            tolerances.append((parameter.name, unit.symbol))
+        else:
+            raise RuleError("rule.no-unit", code=code, parameter=parameter.name)
+    if len(inputs) != 1 or not isinstance(inputs[0], type) or hints.get("return") is not Hits:
+        raise RuleError("rule.signature", code=code, parameter=check.__name__)
+    return inputs[0], tuple(tolerances)

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""The rules: one file a rule, file name = rule name."""

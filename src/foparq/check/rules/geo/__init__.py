@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Rules on one item's own geometry."""

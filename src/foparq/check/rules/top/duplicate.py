@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""TOP001 duplicate."""
+
+import numpy as np
+
+from foparq.check.rule import rule
+from foparq.findings.hits import Hits, Index, hits
+from foparq.geom.duplicates import duplicate_groups
+from foparq.model.inputs import Lines
+from foparq.units import Metres
+
+
+@rule("TOP001", "duplicate", limit="coincide", measures=("4",), requires=("GEO001", "GEO002"))
+def duplicate(lines: Lines, *, coincide: Metres) -> Hits:
+    """Line drawn more than once.
+
+    Two lines are duplicates if, followed from end to end, in the same direction or one of them backwards, they are
+    nowhere farther apart than ``coincide``, in the plane and in depth: vertex by vertex if they have as many, or else
+    at every same share of their lengths. Rings may start anywhere; vertices added on a straight piece change nothing.
+    Duplicates of duplicates belong to the same group.
+
+    Of the lines of a group all but the first are at fault. A line on the boundary of an area is always at fault, the
+    boundary never because of it. Boundaries are compared area by area: two areas are duplicates if all their rings are;
+    a hole and the area that fills it are not.
+
+    Parameters
+    ----------
+    lines : Lines, n rows
+    coincide : float, metres
+        Distance up to which two places are one.
+
+    Returns
+    -------
+    Hits
+        One a copy: place is the copy itself, size its length, other the line it repeats.
+
+    Notes
+    -----
+    O(n log n); copies are not paired with each other. Does not report lines that share a part only: see TOP021
+    line-overlap.
+    """
+    group = duplicate_groups(lines.polylines, coincide=coincide)
+    crowded = np.flatnonzero(np.bincount(group, minlength=1)[group] > 1) if len(group) else group
+    row, other = _copies(crowded, group, _kinds(lines, crowded, group), lines.bounds)
+    return hits(row, lines.geometry[row], lines.polylines.length_in_space[row], other)
+
+
+def _kinds(lines: Lines, rows: Index, group: Index) -> Index:
+    """Kind (n,) of each row: 0 for lines, else a number for boundaries whose areas have the same rings."""
+    kind = np.zeros(len(lines), dtype=np.intp)
+    bounds = rows[lines.bounds[rows]]
+    concerned = np.flatnonzero(lines.bounds & np.isin(lines.row, lines.row[bounds]))
+    rings: dict[int, list[int]] = {}
+    for item, ring in zip(lines.row[concerned].tolist(), group[concerned].tolist(), strict=True):
+        rings.setdefault(item, []).append(ring)
+    numbers: dict[tuple[int, ...], int] = {}
+    of_item = {item: numbers.setdefault(tuple(sorted(of)), len(numbers) + 1) for item, of in rings.items()}
+    kind[bounds] = [of_item[item] for item in lines.row[bounds].tolist()]
+    return kind
+
+
+def _copies(rows: Index, group: Index, kind: Index, bounds: np.ndarray) -> tuple[Index, Index]:
+    """Rows at fault and the row each repeats."""
+    # Boundaries stand before lines in their group, otherwise rows keep their order.
+    order = rows[np.lexsort((rows, ~bounds[rows], group[rows]))]
+    _, first = np.unique(group[order], return_index=True)
+    leader = np.repeat(order[first], np.diff(np.append(first, len(order))))
+    copy = (leader != order) & ~bounds[order]
+    row, other = order[copy], leader[copy]
+    edges = order[bounds[order]]
+    _, first, inverse = np.unique(np.stack([group[edges], kind[edges]]), axis=1, return_index=True, return_inverse=True)
+    leader = edges[first][inverse.ravel()]
+    copy = leader != edges
+    return np.concatenate([row, edges[copy]]), np.concatenate([other, leader[copy]])

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+"""A profile against the rules that exist: a wrong tolerance is told before any file is read."""
+
+from foparq.check.registry import all_rules
+from foparq.check.rule import Rule
+from foparq.errors import ProfileError
+from foparq.profile.schema import CheckSpec, Profile
+
+_EXAMPLES = {"m": "0.2 mm @ scale", "m2": "1 m2", "1": "10 %", "items": "5 items"}
+
+
+def validate_checks(profile: Profile) -> None:
+    """Compare the checks and elements of a profile with the rules.
+
+    Raises
+    ------
+    ProfileError
+        If a rule is unknown, or a tolerance is missing, unknown or of the wrong kind of unit.
+    """
+    by_name = {rule.name: rule for rule in all_rules().values()}
+    for spec in profile.checks:
+        if spec.rule not in by_name:
+            raise ProfileError(
+                "profile.unknown-rule", value=spec.rule, example="undershoot", file=spec.file, line=spec.line
+            )
+        _validate_tolerances(spec, by_name[spec.rule])
+    for element in profile.elements:
+        for name in element.rules:
+            if name not in by_name:
+                raise ProfileError("profile.unknown-rule", value=name, example="undershoot", file=profile.path, line=1)
+
+
+def _validate_tolerances(spec: CheckSpec, rule: Rule) -> None:
+    place = {"file": spec.file, "line": spec.line, "rule": rule.name}
+    wanted = dict(rule.tolerances)
+    for name, quantity in spec.tolerances.items():
+        if name not in wanted:
+            raise ProfileError("profile.unknown-tolerance", key=name, known=", ".join(wanted) or "-", **place)
+        if quantity.symbol != wanted[name]:
+            example = _EXAMPLES[wanted[name]]
+            raise ProfileError("profile.tolerance-unit", key=name, value=str(quantity), example=example, **place)
+    for name, symbol in wanted.items():
+        if name not in spec.tolerances:
+            raise ProfileError(
+                "profile.missing-tolerance", key=name, example=f'{name} = "{_EXAMPLES[symbol]}"', **place
+            )

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: MIT
+"""What ``foparq check`` does."""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from foparq.audit import check_files
+from foparq.check.catalogue import cards, find_card
+from foparq.cli.common import progress_on_stderr
+from foparq.cli.exit_of import exit_of
+from foparq.cli.show import show
+from foparq.errors import UsageError
+from foparq.profile.adjust import choose, with_settings
+from foparq.profile.load import load_profile
+from foparq.profile.schema import Profile
+from foparq.report.files import writable, write_reports
+from foparq.report.words import Words
+from foparq.units import parse_length_unit, parse_scale
+
+
+def check_work(
+    say: Words, *, files: tuple[Path, ...], profile: str, scale: str | None, unit: str | None, plane: str,
+    areas: tuple[str, ...], select: tuple[str, ...], ignore: tuple[str, ...], settings: tuple[str, ...],
+    out: Path | None, form: str,
+) -> int:  # fmt: skip
+    """Check loose drawings, tell what was found; returns the exit code."""
+    chosen = _profile(profile, select, ignore, settings)
+    stated = scale or chosen.scale
+    if stated is None:
+        raise UsageError("usage.scale", example="--scale 1:50")
+    if unit is not None:
+        parse_length_unit(unit)
+    if out is not None:
+        writable(out)
+    with progress_on_stderr(say) as progress:
+        done = check_files(
+            files, profile=chosen, scale=parse_scale(stated), unit=unit, plane=plane, areas=areas,
+            language=say.language, progress=progress,
+        )  # fmt: skip
+        written = write_reports(done.record, done.log, out, progress) if out is not None else []
+    show(done.record, form, say, written)
+    if out is None:
+        sys.stderr.writelines(f"{trace}\n" for trace in done.log)
+    return int(exit_of(done.record))
+
+
+def _profile(name: str, select: Sequence[str], ignore: Sequence[str], settings: Sequence[str]) -> Profile:
+    profile = load_profile(name, Path())
+    if select or ignore:
+        wanted = _names(select) if select else {card.name for card in cards()}
+        profile = choose(profile, sorted(wanted - _names(ignore)))
+    return with_settings(profile, settings)
+
+
+def _names(texts: Sequence[str]) -> set[str]:
+    """Rule names of codes, names and prefixes such as ``TOP``; several may be joined by commas."""
+    names: set[str] = set()
+    for text in (part.strip() for given in texts for part in given.split(",") if part.strip()):
+        family = {card.name for card in cards() if card.code.startswith(text.upper())}
+        names |= family or {find_card(text).name}
+    return names

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: MIT
+"""Exit codes and what they mean."""
+
+from enum import IntEnum
+
+
+class Exit(IntEnum):
+    """Exit codes of the command; scripts rely on them."""
+
+    ACCEPTED = 0  #: accepted, or clean
+    REJECTED = 1  #: rejected, or faults
+    USAGE = 2  #: arguments, profile or manifest wrong; results cannot be written
+    UNDECIDED = 3  #: evidence missing, undecidable, rule crashed, limit hit
+    REFUSED = 4  #: input unreadable or unsafe

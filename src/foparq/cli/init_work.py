@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: MIT
+"""What ``foparq init`` does: a manifest proposed from the files found. What only a person knows stays open."""
+
+import json
+from pathlib import Path
+
+import click
+
+from foparq.audit import MANIFEST
+from foparq.errors import ManifestError, WriteError
+from foparq.profile.load import load_profile
+from foparq.read.survey import FoundDrawing, Survey, survey_folder
+from foparq.report.words import Words, printable
+
+_PROFILE = "et-doc-foparq-a"
+_MOST_LAYERS = 40
+
+
+def init_work(say: Words, *, folder: Path, force: bool) -> int:
+    """Write ``delivery.toml`` into a folder; returns the exit code."""
+    if not folder.is_dir():
+        raise ManifestError("manifest.no-folder", file=str(folder), example="foparq init fixtures/deliveries/station-a")
+    path = folder / MANIFEST
+    if path.exists() and not force:
+        raise ManifestError("manifest.exists", file=str(path), example=f'foparq init "{folder}" --force')
+    found = survey_folder(folder, load_profile(_PROFILE))
+    if not found.drawings:
+        raise ManifestError("manifest.nothing", file=str(folder), example='foparq init "my-delivery"')
+    try:
+        path.write_text(manifest_text(found, folder.resolve().name, say), encoding="utf-8")
+    except OSError as error:
+        why = error.strerror or str(error)
+        raise WriteError("write.folder", file=str(folder), value=why, example=f'foparq init "{folder}"') from None
+    click.echo(say("cli.init.done", file=str(path), folder=str(folder)))
+    return 0
+
+
+def manifest_text(found: Survey, title: str, say: Words) -> str:
+    """Text of a manifest, commented in the language of the user.
+
+    Parameters
+    ----------
+    found : Survey
+    title : str
+        Proposed title.
+    say : Words
+
+    Returns
+    -------
+    str
+        TOML that :func:`foparq.profile.load.load_manifest` takes as it stands.
+    """
+    lines = [
+        *_comment(say("cli.manifest.head")),
+        "",
+        "[delivery]",
+        f"title = {_quoted(title)}",
+        f"profile = {_quoted(_PROFILE)}",
+        f'# scale = "1:50"  # {say("cli.manifest.scale")}',
+        f"language = {_quoted(say.language)}",
+    ]
+    for drawing in found.drawings:
+        lines += ["", *_drawing(drawing, say)]
+    for role, example in (("features", ""), ("checkpoints", "3 mm"), ("distances", "3 mm")):
+        lines += ["", *_comment(say(f"cli.manifest.{role}")), *_table(role, found.tables.get(role, ()), example, say)]
+    if found.others:
+        lines += ["", *_comment(say("cli.manifest.others")), *(f"#   {printable(name)}" for name in found.others)]
+    return "\n".join(lines) + "\n"
+
+
+def _drawing(drawing: FoundDrawing, say: Words) -> list[str]:
+    unit = drawing.header or "m"
+    says = say("cli.manifest.unit-says", unit=drawing.header) if drawing.header else say("cli.manifest.unit-silent")
+    x, y, z = drawing.extent
+    shown = drawing.layers[:_MOST_LAYERS]
+    more = [f"# ... ({len(drawing.layers)})"] if len(drawing.layers) > _MOST_LAYERS else []
+    return [
+        "[[drawing]]",
+        f"path = {_quoted(drawing.path)}",
+        f"# unit = {_quoted(unit)}  # {says}",
+        f"plane = {_quoted(_plane(drawing.extent))}  # {say('cli.manifest.plane', x=x, y=y, z=z)}",
+        f'# facade = "N"  # {say("cli.manifest.facade")}',
+        *_comment(say("cli.manifest.classes")),
+        '# classes = { "ESQUADRIA*" = "window", "PORTA*" = "door" }',
+        *_comment(say("cli.manifest.areas")),
+        '# areas = ["REVESTIMENTO"]',
+        f"# {say('cli.manifest.layers')}",
+        *(f"#   {printable(layer)}" for layer in shown),
+        *more,
+    ]
+
+
+def _plane(extent: tuple[float, float, float]) -> str:
+    """The two widest axes: a facade drawn in space stands upright."""
+    narrowest = min(range(3), key=lambda axis: (extent[axis], -axis))
+    return ("yz", "xz", "xy")[narrowest]
+
+
+def _table(role: str, names: tuple[str, ...], survey_sd: str, say: Words) -> list[str]:
+    if not names:
+        body = [f"# [{role}]", f'# path = "{role}.csv"']
+        return body + ([f'# survey_sd = "{survey_sd}"'] if survey_sd else [])
+    lines = [f"[{role}]", f"path = {_quoted(names[0])}"]
+    if survey_sd:
+        lines.append(f'# survey_sd = "{survey_sd}"  # {say("cli.manifest.survey-sd")}')
+    return lines + [f"# {say('cli.manifest.also')}: {printable(name)}" for name in names[1:]]
+
+
+def _comment(text: str) -> list[str]:
+    return [f"# {line}".rstrip() for line in text.split("\n")]
+
+
+def _quoted(text: str) -> str:
+    # A JSON string is a TOML basic string; DEL alone must be escaped by hand.
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: MIT
+"""The command group. Subcommands are loaded when they are called, so that ``--help`` answers at once."""
+
+import gettext
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+
+import click
+
+from foparq import __version__
+from foparq.cli.exits import Exit
+from foparq.errors import FoparqError, InputError, UsageError, WriteError
+from foparq.report.words import LANGUAGES, Words, language_of
+from foparq.resources import shipped
+
+#: subcommands in the order of the help
+COMMANDS = ("audit", "check", "init", "rules", "explain", "doctor")
+
+
+class Commands(click.Group):
+    """Subcommands from ``foparq.cli.<name>_command``, each made by its ``command(say)``."""
+
+    def __init__(self, say: Words, **options: object) -> None:
+        super().__init__(**options)  # type: ignore[arg-type]
+        self.say = say
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
+        """Names in the order of the help."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
+        """The subcommand, loaded now."""
+        if cmd_name not in COMMANDS:
+            return None
+        module = importlib.import_module(f"foparq.cli.{cmd_name}_command")
+        made: click.Command = module.command(self.say)
+        return made
+
+
+def command_line(say: Words) -> click.Group:
+    """The whole command in one language."""
+    group = Commands(
+        say, name="foparq", help=say("cli.foparq"), context_settings={"help_option_names": ["-h", "--help"]}
+    )
+    group.params.append(
+        click.Option(["--lang"], type=click.Choice(LANGUAGES), expose_value=False, help=say("cli.option.lang"))
+    )
+    version = f"foparq {__version__}"
+    return click.version_option(message=version, version=__version__, help=say("cli.option.version"))(group)
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command.
+
+    Parameters
+    ----------
+    arguments : sequence of str
+        Without the program's name.
+
+    Returns
+    -------
+    int
+        Exit code, see :class:`foparq.cli.exits.Exit`.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    asked = _asked_language(arguments)
+    language = language_of(asked)
+    _speak(language)
+    say = Words(language)
+    try:
+        code = command_line(say).main(list(arguments), prog_name="foparq", standalone_mode=False, obj=asked)
+    except click.ClickException as error:
+        error.show()
+        return Exit.USAGE
+    except (click.Abort, KeyboardInterrupt):
+        click.echo(say("cli.aborted"), err=True)
+        return Exit.USAGE
+    except FoparqError as error:
+        click.echo(f"{say('cli.error')}: {say.error(error)}", err=True)
+        return _exit_of(error)
+    except BrokenPipeError:
+        # The reader of a pipe left early, as `head` does; nothing more can be said.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return Exit.USAGE
+    except Exception:  # noqa: BLE001 - no traceback reaches a user; it is kept for the report of the error
+        click.echo(f"{say('cli.error')}: {say('cli.crashed', file=_kept_traceback())}", err=True)
+        return Exit.UNDECIDED
+    return int(code or 0)
+
+
+def _kept_traceback() -> str:
+    """File that holds the traceback of the error being handled."""
+    import tempfile  # noqa: PLC0415 - only when something went wrong
+    import traceback  # noqa: PLC0415
+
+    with tempfile.NamedTemporaryFile(
+        "w", prefix="foparq-crash-", suffix=".log", delete=False, encoding="utf-8"
+    ) as stream:
+        stream.write(traceback.format_exc())
+    return stream.name
+
+
+def _exit_of(error: FoparqError) -> int:
+    if isinstance(error, InputError):
+        return Exit.REFUSED
+    return Exit.USAGE if isinstance(error, UsageError | WriteError) else Exit.UNDECIDED
+
+
+def _asked_language(arguments: Sequence[str]) -> str | None:
+    """The language asked for anywhere on the line: help texts need it before the line is understood."""
+    for n, argument in enumerate(arguments):
+        if argument.startswith("--lang="):
+            return argument.partition("=")[2]
+        if argument == "--lang" and n + 1 < len(arguments):
+            return arguments[n + 1]
+    return None
+
+
+def _speak(language: str) -> None:
+    """Make click's own messages speak the language too: it asks gettext's default domain."""
+    gettext.bindtextdomain("messages", str(shipped("templates") / "locale"))
+    gettext.textdomain("messages")
+    os.environ["LANGUAGE"] = language.replace("-", "_")

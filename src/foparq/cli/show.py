@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: MIT
+"""What the terminal shows of a finished audit."""
+
+import json
+import shutil
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+import numpy as np
+
+from foparq.evaluate.quality import Element
+from foparq.findings.outcome import Status
+from foparq.findings.table import Severity
+from foparq.model.delivery import SourceStatus
+from foparq.report.audit_json import audit_json, findings_csv, findings_jsonl, findings_rows
+from foparq.report.record import AuditRecord
+from foparq.report.sentences import outcome_because, reason_sentence, source_sentence
+from foparq.report.words import Words, printable
+
+_SHOWN = 10  #: findings of one kind that the text names
+_WIDTH = 100
+
+
+def show(record: AuditRecord, form: str, say: Words, written: Sequence[Path]) -> None:
+    """Write a finished audit to standard output.
+
+    Parameters
+    ----------
+    record : AuditRecord
+    form : str
+        ``"text"``, ``"concise"``, ``"json"``, ``"jsonl"`` or ``"csv"``.
+    say : Words
+        Language of the terminal.
+    written : sequence of Path
+        Report files, named at the end of the text.
+    """
+    if form == "json":
+        click.echo(json.dumps(audit_json(record), ensure_ascii=False, indent=2))
+    elif form == "jsonl":
+        sys.stdout.writelines(line + "\n" for line in findings_jsonl(record))
+    elif form == "csv":
+        click.echo(findings_csv(record), nl=False)
+    elif form == "concise":
+        _concise(record, say)
+    else:
+        _text(record, say, written)
+
+
+def _concise(record: AuditRecord, say: Words) -> None:
+    for row in findings_rows(record):
+        place = "" if row["where"] is None else " ({})".format(", ".join(f"{value:.4f}" for value in row["where"]))
+        parts = [printable(str(part)) for part in (row["source"], row["layer"], row["handle"]) if part]
+        click.echo(f"{':'.join(parts)}: {row['rule']} {row['name']} {_size(say, row['size'], row['unit'])}{place}")
+    click.echo(_headline(record, say))
+
+
+def _text(record: AuditRecord, say: Words, written: Sequence[Path]) -> None:
+    colour = (
+        {"accepted": "green", "rejected": "red"}.get(record.quality.verdict.value, "yellow")
+        if not record.loose
+        else None
+    )
+    click.echo(click.style(_headline(record, say), bold=True, fg=colour))
+    if not record.loose:
+        for reason in record.quality.why:
+            click.echo(f"  - {reason_sentence(say, reason)}")
+        click.echo()
+        for element in record.quality.elements:
+            _element(element, say)
+    _findings(record, say)
+    _not_checked(record, say)
+    if written:
+        click.echo()
+        click.echo(say("cli.written", folder=str(written[0].parent), files=[path.name for path in written]))
+
+
+def _headline(record: AuditRecord, say: Words) -> str:
+    faults = int(np.count_nonzero(record.findings.severity != Severity.NOTE))
+    notes = len(record.findings) - faults
+    if record.loose:
+        message = "faults" if faults else "clean" if _complete(record) else "incomplete"
+        return say(f"cli.headline.{message}", faults=faults, notes=notes)
+    return say(
+        f"cli.headline.{record.quality.verdict.value}",
+        title=record.delivery.title,
+        profile=record.profile,
+        faults=faults,
+        notes=notes,
+    )
+
+
+def _complete(record: AuditRecord) -> bool:
+    read = all(source.status not in {SourceStatus.REFUSED, SourceStatus.MISSING} for source in record.delivery.sources)
+    return read and not any(
+        outcome.status is Status.CRASHED or outcome.because in {"unit-unknown", "unit-doubtful"}
+        for outcome in record.outcomes
+    )
+
+
+def _element(element: Element, say: Words) -> None:
+    value = "–" if element.value is None else _size(say, element.value, element.unit)
+    limit = "" if element.limit is None else f"{element.comparison} {_size(say, element.limit, element.unit)}"
+    informative = element.limit is None and not element.required and element.value is not None
+    status = say(f"cli.status.{'reported' if informative else element.status.value}")
+    title = say(f"evaluate.element.{element.id}.title")
+    name = f"{element.id:<11}{title}"
+    click.echo(f"{name[:62]:<62} {value:>12} {limit:>13}  {status}")
+    for reason in element.why:
+        if element.status.value not in {"pass", "not-applicable"}:
+            click.echo(f"           {reason_sentence(say, reason)}")
+
+
+def _findings(record: AuditRecord, say: Words) -> None:
+    table = record.findings
+    rows = list(findings_rows(record, say))
+    for severity in Severity:
+        names = sorted(set(table.name[table.severity == severity].tolist()))
+        for name in names:
+            of_name = [row for row in rows if row["name"] == name and row["severity"] == severity]
+            count = int(np.count_nonzero((table.name == name) & (table.severity == severity)))
+            rule = of_name[0]["rule"]
+            click.echo()
+            click.echo(
+                click.style(f"{rule} {name}", bold=True)
+                + f" ({say(f'cli.severity.{severity.value}')}): {say.count(count)}. {say(f'rules.{rule}.title')}"
+            )
+            for row in of_name[:_SHOWN]:
+                click.echo(f"  {_place(row['where'])}  {row['message']}")
+            if count > _SHOWN:
+                click.echo(f"  {say('cli.more', count=count - _SHOWN)}")
+            if severity is not Severity.NOTE:
+                click.echo(_wrapped(say(f"rules.{rule}.mend"), "  > "))
+
+
+def _not_checked(record: AuditRecord, say: Words) -> None:
+    unread = {SourceStatus.REFUSED, SourceStatus.MISSING, SourceStatus.UNNAMED}
+    lines = [
+        f"{printable(source.path)}: {source_sentence(say, source)}"
+        for source in record.delivery.sources
+        if source.status in unread
+    ]
+    unit = sorted(
+        {
+            (outcome.source, outcome_because(say, outcome))
+            for outcome in record.outcomes
+            if outcome.because not in {"", "nothing-to-check"}
+        }
+    )
+    lines += [f"{printable(source)}: {because}" for source, because in unit]
+    if lines:
+        click.echo()
+        click.echo(click.style(say("cli.not-checked"), bold=True))
+        for line in lines:
+            click.echo(f"  {line}")
+
+
+def _size(say: Words, value: float | None, unit: str) -> str:
+    return "–" if value is None else say.quantity(value, unit)
+
+
+def _place(where: list[float] | None) -> str:
+    return "" if where is None else "({})".format("; ".join(f"{value:.4f}" for value in where))
+
+
+def _wrapped(text: str, indent: str) -> str:
+    import textwrap  # noqa: PLC0415
+
+    width = min(shutil.get_terminal_size((_WIDTH, 24)).columns, 120)
+    return textwrap.fill(text, width, initial_indent=indent, subsequent_indent=" " * len(indent))

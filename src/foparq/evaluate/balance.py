@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: MIT
+"""Specified against delivered features, by class and facade.
+
+Counts cannot tell which feature is missing: as many optional features as are drawn may stand for required ones. A
+deficit on one facade is never made good by a surplus on another.
+"""
+
+from collections import defaultdict
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from foparq.evaluate.evidence import Evidence, Judgement, judged
+from foparq.evaluate.quality import ElementStatus, Reason, because
+from foparq.findings.counts import FeatureCounts
+from foparq.model.tables import FeatureList
+
+
+class Gap(StrEnum):
+    """Why specified and delivered features cannot be compared."""
+
+    NONE = ""
+    UNBOUND = "unbound"  #: no layer of a drawing of that facade is bound to the class: no evidence of omission
+    FACADE = "facade"  #: list or drawings name no facade, the other side does
+    UNLISTED = "unlisted"  #: drawn, but the list says nothing of the class, or nothing of the facade
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Balance:
+    """Features of one class on one facade."""
+
+    feature_class: str
+    facade: str  #: ``""`` if the list states none
+    required: int = 0
+    optional: int = 0
+    delivered: int = 0  #: 0 if not comparable
+    accepted: int = 0  #: required ones whose omission is accepted, with evidence
+    unproven: int = 0  #: required ones whose omission is said to be accepted, without evidence
+    gap: Gap = Gap.NONE
+
+    @property
+    def label(self) -> str:
+        """``"window / N"``."""
+        return f"{self.feature_class} / {self.facade}" if self.facade else self.feature_class
+
+    @property
+    def missing(self) -> int:
+        """Required features that are not drawn."""
+        return max(0, self.required - self.delivered)
+
+    @property
+    def missing_net(self) -> int:
+        """Required features that are not drawn, without those whose omission is accepted with evidence."""
+        return max(0, self.missing - self.accepted)
+
+    @property
+    def surplus(self) -> int:
+        """Drawn features that the list does not allow; of a prohibited class, all."""
+        return max(0, self.delivered - self.required - self.optional)
+
+
+def balances(features: FeatureList, counts: FeatureCounts) -> tuple[Balance, ...]:
+    """Balance of every class and facade, ordered by both.
+
+    Parameters
+    ----------
+    features : FeatureList
+        If all rows of a class state no facade, its drawn features are added over all facades.
+    counts : FeatureCounts
+        A class and facade that is there with a count of 0 has a layer bound to it.
+
+    Returns
+    -------
+    tuple of Balance
+        A class that is drawn on a facade where the list has none of it is a surplus, as long as the list speaks of both
+        the class and the facade; else it is ``Gap.UNLISTED``.
+    """
+    drawn: dict[str, dict[str, int]] = defaultdict(dict)
+    for name, facade, count in zip(counts.feature_class, counts.facade, counts.count, strict=True):
+        drawn[name][facade] = drawn[name].get(facade, 0) + int(count)
+    listed: dict[str, set[str]] = defaultdict(set)
+    for name, facade in zip(features.feature_class, features.facade, strict=True):
+        listed[name].add(facade)
+    spoken = {facade for facades in listed.values() for facade in facades}
+    made: list[Balance] = []
+    for name in sorted({*listed, *drawn}):
+        made.extend(_of_class(features, name, listed.get(name, set()), drawn.get(name, {}), spoken))
+    return tuple(made)
+
+
+def gap_reasons(rows: tuple[Balance, ...], name: str, gaps: tuple[Gap, ...]) -> tuple[Reason, ...]:
+    """Reasons for the classes that could not be compared."""
+    labels = {gap: [row.label for row in rows if row.gap is gap] for gap in gaps}
+    return tuple(
+        because(f"features.{gap.value}", element=name, classes=known[:10], n=len(known))
+        for gap, known in labels.items()
+        if known
+    )
+
+
+def no_balance(evidence: Evidence, name: str) -> Judgement | None:
+    """Why features cannot be compared at all; ``None`` if they can."""
+    features, drawings = evidence.delivery.features, evidence.delivery.drawings
+    if features is None or not len(features.id):
+        if evidence.lost("features"):
+            return judged(ElementStatus.UNDECIDED, because("features.lost", element=name))
+        return judged(ElementStatus.NOT_ASSESSED, because("features.no-list", element=name))
+    if evidence.counts is not None:
+        return None
+    lost = evidence.lost("drawing")
+    unread = (because("unseen.file", element=name, files=lost),) if lost else uncounted(evidence, name)
+    if unread:
+        return judged(ElementStatus.UNDECIDED, *unread)
+    bound = any(drawing.classes for drawing in drawings)
+    case = "features.not-counted" if bound else "features.no-classes" if drawings else "checks.no-drawing"
+    return judged(ElementStatus.NOT_ASSESSED, because(case, element=name))
+
+
+def uncounted(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Drawings with classes whose features were not counted because nobody knows their unit."""
+    drawings = [drawing for drawing in evidence.delivery.drawings if drawing.classes and drawing.unit.metres is None]
+    return (because("features.unit-unknown", element=name, files=[d.path for d in drawings]),) if drawings else ()
+
+
+def doubtful(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Drawings that contradict their own unit: what counts as one feature depends on lengths, so counts say nothing."""
+    doubted = {outcome.source for outcome in evidence.outcomes if outcome.because == "unit-doubtful"}
+    files = [drawing.path for drawing in evidence.delivery.drawings if drawing.classes and drawing.path in doubted]
+    return (because("features.unit-doubtful", element=name, files=files),) if files else ()
+
+
+def unmapped(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:
+    """Layers that no class is bound to, as a remark: not assessed, never commission."""
+    if not counts.unmapped:
+        return ()
+    layers = [layer for layer, _ in counts.unmapped]
+    items = sum(count for _, count in counts.unmapped)
+    return (because("features.unmapped", element=name, layers=layers[:10], n=len(layers), items=items),)
+
+
+def _of_class(
+    features: FeatureList, name: str, listed: set[str], drawn: Mapping[str, int], spoken: set[str]
+) -> list[Balance]:
+    if not listed:
+        rows = [Balance(feature_class=name, facade=f, delivered=n, gap=Gap.UNLISTED) for f, n in sorted(drawn.items())]
+        return [row for row in rows if row.delivered]
+    vague = ("" in listed and len(listed) > 1) or ("" not in listed and drawn.get("", 0) > 0)
+    made = []
+    for facade in sorted(listed):
+        if listed == {""}:
+            delivered, gap = sum(drawn.values()), Gap.NONE if drawn else Gap.UNBOUND
+        elif vague:
+            delivered, gap = 0, Gap.FACADE
+        else:
+            delivered, gap = drawn.get(facade, 0), Gap.NONE if facade in drawn else Gap.UNBOUND
+        made.append(_listed(features, name, facade, delivered, gap))
+    if not vague and listed != {""}:
+        for facade in sorted(set(drawn) - listed):
+            gap = Gap.NONE if facade in spoken else Gap.UNLISTED
+            made.append(Balance(feature_class=name, facade=facade, delivered=drawn[facade], gap=gap))
+    return [row for row in made if row.facade in listed or row.delivered]
+
+
+def _listed(features: FeatureList, name: str, facade: str, delivered: int, gap: Gap) -> Balance:
+    rows = (features.feature_class == name) & (features.facade == facade)
+    required = rows & (features.use == "required")
+    excused = required & (features.accepted != "")
+    proven = excused & (features.evidence != "")
+    total = {
+        "required": required, "optional": rows & (features.use == "optional"),
+        "accepted": proven, "unproven": excused & ~proven,
+    }  # fmt: skip
+    counted = {key: int(features.count[np.asarray(mask, dtype=bool)].sum()) for key, mask in total.items()}
+    return Balance(feature_class=name, facade=facade, delivered=delivered, gap=gap, **counted)

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: MIT
+"""Commission: drawn features that the specification does not ask for."""
+
+from foparq.evaluate.balance import Balance, Gap, balances, doubtful, gap_reasons, no_balance, uncounted, unmapped
+from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
+from foparq.evaluate.quality import Element, ElementStatus, because
+from foparq.profile.schema import ElementSpec
+
+_MEASURE = "3"
+
+
+def commission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+    """Surplus features over the required ones, measure 3; the limit may be reached.
+
+    The share of the delivered features is given beside it.
+
+    The order of decisions:
+
+    1. No list, or no layer bound to a class: not assessed. A drawing that contradicts its own unit: undecided.
+    2. The rate exceeds the limit: it fails. What was not seen can only add to the surplus.
+    3. Classes that could not be compared, and parts of the drawings that nobody saw: undecided. Drawn features of a
+       class or facade of which the list says nothing belong here: a list that is silent prohibits nothing.
+    4. Otherwise it passes. Layers that are bound to no class are not assessed and never count.
+
+    Parameters
+    ----------
+    spec : ElementSpec
+    evidence : Evidence
+
+    Returns
+    -------
+    tuple of one Element
+    """
+    scope = ", ".join(filter(None, [evidence.files("features"), evidence.files("drawing")]))
+    limit, no_limit = limit_of(spec, evidence, "1", spec.id)
+    features, counts = evidence.delivery.features, evidence.counts
+    nothing = no_balance(evidence, spec.id)
+    if nothing is not None or features is None or counts is None:
+        judgement = nothing or judged(ElementStatus.NOT_ASSESSED, because("features.no-list", element=spec.id))
+        return (element(spec, _MEASURE, judgement, scope=scope, limit=limit, comparison="<=", method="directExternal"),)
+    every = balances(features, counts)
+    known = [row for row in every if row.gap is Gap.NONE]
+    surplus, required = sum(row.surplus for row in known), sum(row.required for row in known)
+    delivered = sum(row.delivered for row in known)
+    if no_limit is not None or limit is None:
+        judgement = judged(ElementStatus.UNDECIDED, *filter(None, [no_limit]))
+    elif doubts := doubtful(evidence, spec.id):
+        judgement = judged(ElementStatus.UNDECIDED, *doubts)
+    else:
+        judgement = _judge(spec, evidence, every, limit)
+    value = surplus / required if required else None if surplus else 0.0
+    parameters = [("surplus", float(surplus), "items"), ("delivered", float(delivered), "items")]
+    if delivered:
+        parameters.append(("share-of-delivered", surplus / delivered, "1"))
+    made = element(
+        spec, _MEASURE, judged(judgement.status, *judgement.why, *unmapped(counts, spec.id)), scope=scope, n=required,
+        value=value if known else None, limit=limit, comparison="<=", parameters=parameters, method="directExternal",
+        details=tuple((row.label, float(row.surplus), float(row.required + row.optional)) for row in known),
+    )  # fmt: skip
+    return (made,)
+
+
+def _judge(spec: ElementSpec, evidence: Evidence, every: tuple[Balance, ...], limit: float) -> Judgement:
+    name = spec.id
+    known = [row for row in every if row.gap is Gap.NONE]
+    surplus, required = sum(row.surplus for row in known), sum(row.required for row in known)
+    gaps = gap_reasons(every, name, (Gap.UNLISTED, Gap.UNBOUND, Gap.FACADE))
+    worst = sorted((row for row in known if row.surplus), key=lambda row: (-row.surplus, row.label))
+    fields = {
+        "element": name, "surplus": surplus, "required": required, "limit": (limit, "1"),
+        "classes": [row.label for row in worst[:10]],
+    }  # fmt: skip
+    if surplus and (not required or surplus / required > limit):
+        return judged(ElementStatus.FAIL, because("commission.fail", **fields), *gaps)
+    doubts = (*gaps, *unseen(evidence, name), *uncounted(evidence, name))
+    if doubts:
+        return judged(ElementStatus.UNDECIDED, *doubts)
+    return judged(ElementStatus.PASS, because("commission.pass", **fields))

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: MIT
+"""What the evaluation looks at, and what of the delivery nobody saw."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from foparq.evaluate.measures import measures
+from foparq.evaluate.quality import Element, ElementStatus, Reason, because
+from foparq.findings.counts import FeatureCounts
+from foparq.findings.outcome import Outcome
+from foparq.model.delivery import Delivery, SourceStatus
+from foparq.model.drawing import Skipped
+from foparq.profile.schema import ElementSpec
+
+#: reasons of the reader behind which linework may hide that the delivery means to show
+HIDING = frozenset({
+    "computed-table", "external-reference", "malformed", "missing-block", "no-geometry-column", "table-missing",
+    "too-many-vertices", "unsupported", "unsupported-geometry", "unsupported-layer", "view", "virtual-table",
+})  # fmt: skip
+
+Parameters = tuple[tuple[str, float, str], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Evidence:
+    """Everything that one evaluation is made from."""
+
+    delivery: Delivery
+    outcomes: Sequence[Outcome]
+    counts: FeatureCounts | None  #: delivered features; ``None`` if they were not counted
+    scale: float | None  #: denominator k of 1:k
+
+    def files(self, role: str) -> str:
+        """Paths of the files of one role, as one text."""
+        return ", ".join(source.path for source in self.delivery.sources if source.role == role)
+
+    def lost(self, role: str) -> list[str]:
+        """Paths of the files of one role that could not be read."""
+        gone = {SourceStatus.REFUSED, SourceStatus.MISSING}
+        return [source.path for source in self.delivery.sources if source.role == role and source.status in gone]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Judgement:
+    """Status of one element with its reasons, the decisive one first."""
+
+    status: ElementStatus
+    why: tuple[Reason, ...]
+
+
+def judged(status: ElementStatus, *why: Reason) -> Judgement:
+    """Judgement of a status and its reasons."""
+    return Judgement(status=status, why=why)
+
+
+def element(
+    spec: ElementSpec, measure: str, judgement: Judgement, *, id: str | None = None, scope: str, n: int = 0,  # noqa: A002
+    value: float | None = None, limit: float | None = None, comparison: str, unit: str | None = None,
+    parameters: Iterable[tuple[str, float, str]] = (), method: str, details: tuple[tuple[str, float, float], ...] = (),
+    kind: str | None = None,
+) -> Element:  # fmt: skip
+    """Element of a measure of the catalogue.
+
+    Parameters
+    ----------
+    spec : ElementSpec
+    measure : str
+        Id in the catalogue.
+    judgement : Judgement
+    id : str, optional
+        Id of this result where the profile's element gives several.
+    scope, n, value, limit, comparison, parameters, method, details
+        As in :class:`Element`. Numbers that are not finite are left out.
+    unit, kind : str, optional
+        Unit and data quality element, where they are not the measure's own.
+
+    Returns
+    -------
+    Element
+    """
+    entry = measures()[measure]
+    return Element(
+        id=id or spec.id, element=kind or entry.element, measure_id=entry.id, measure_name=entry.name, scope=scope,
+        value=value if value is not None and _finite(value) else None, unit=entry.unit if unit is None else unit,
+        limit=limit, comparison=comparison, n=n, status=judgement.status, required=spec.required, why=judgement.why,
+        parameters=tuple(row for row in parameters if _finite(row[1])), method=method, details=details,
+    )  # fmt: skip
+
+
+def limit_of(spec: ElementSpec, evidence: Evidence, symbol: str, name: str) -> tuple[float | None, Reason | None]:
+    """Limit of an element in SI units, or why there is none that can be used.
+
+    Parameters
+    ----------
+    spec : ElementSpec
+    evidence : Evidence
+    symbol : str
+        SI unit of the value.
+    name : str
+        Id of the element, for the reason.
+    """
+    if spec.limit is None:
+        return None, because("limit.none", element=name)
+    if spec.limit.symbol != symbol:
+        return None, because("limit.unit", element=name, limit=str(spec.limit))
+    if spec.limit.at_scale and evidence.scale is None:
+        return None, because("limit.no-scale", element=name, limit=str(spec.limit))
+    return spec.limit.si(evidence.scale), None
+
+
+def unseen(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Parts of the drawings that no check saw: what is there can only add to what was found.
+
+    Parameters
+    ----------
+    evidence : Evidence
+    name : str
+        Id of the element, for the reasons.
+    """
+    why: list[Reason] = []
+    if lost := evidence.lost("drawing"):
+        why.append(because("unseen.file", element=name, files=lost))
+    for drawing in evidence.delivery.drawings:
+        if bombs := sorted({bomb.block for bomb in drawing.reading.bombs}):
+            why.append(because("unseen.block", element=name, file=drawing.path, blocks=bombs[:5], n=len(bombs)))
+        if hidden := [part for part in drawing.reading.skipped if _hides(part)]:
+            kinds = sorted({part.kind for part in hidden})
+            n = sum(part.count for part in hidden)
+            why.append(because("unseen.skipped", element=name, file=drawing.path, kinds=kinds[:5], n=n))
+    return tuple(why)
+
+
+def _hides(part: Skipped) -> bool:
+    # A view that no contents table lists is told under its own name; nothing was delivered through it.
+    return part.reason in HIDING and part.kind != part.reason
+
+
+def _finite(value: float) -> bool:
+    return value - value == 0.0

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""Logical consistency: which share of the features is at fault."""
+
+from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
+from foparq.evaluate.quality import Element, ElementStatus, because
+from foparq.evaluate.tally import Tally, broken_reasons, iso_counts, judge_nothing, tally
+from foparq.profile.schema import ElementSpec
+
+_MEASURE = "foparq:faulty-features"
+
+
+def faulty_rate(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+    """Distinct faulty features of the named rules over the features checked; the limit may be reached.
+
+    The order of decisions:
+
+    1. Nothing checked: not assessed, or undecided if rules could not run.
+    2. A rule that crashed is a fault of the program: undecided.
+    3. The rate exceeds the limit, even if the drawings on which the rules did not run are free of faults: it fails.
+       Whatever was not seen can only add faults to what was.
+    4. A rule of the list was not part of the audit: not assessed.
+    5. Rules that did not run, parts that nobody saw, and features set aside for other faults that could turn the
+       result: undecided.
+    6. Otherwise it passes.
+
+    Parameters
+    ----------
+    spec : ElementSpec
+    evidence : Evidence
+
+    Returns
+    -------
+    tuple of one Element
+    """
+    found = tally(evidence, spec.rules)
+    limit, no_limit = limit_of(spec, evidence, "1", spec.id)
+    value = found.faulty / found.checked if found.checked else None
+    if value is None:
+        judgement = judge_nothing(spec, evidence, found)
+    elif no_limit is not None or limit is None:
+        judgement = judged(ElementStatus.UNDECIDED, *filter(None, [no_limit]))
+    else:
+        judgement = _judge(spec, evidence, found, limit)
+    parameters = (
+        ("faulty", float(found.faulty), "items"), ("checked", float(found.checked), "items"),
+        ("set-aside", float(found.aside), "items"), ("not-run-on", float(found.unrun), "items"), *iso_counts(found),
+    )  # fmt: skip
+    made = element(
+        spec, _MEASURE, judgement, scope=evidence.files("drawing"), n=found.checked, value=value, limit=limit,
+        comparison="<=", parameters=parameters, method="directInternal", details=found.rules,
+    )  # fmt: skip
+    return (made,)
+
+
+def _judge(spec: ElementSpec, evidence: Evidence, found: Tally, limit: float) -> Judgement:
+    name, broken = spec.id, broken_reasons(found, spec.id)
+    rate = found.faulty / found.checked
+    fields = {
+        "element": name, "faulty": found.faulty, "checked": found.checked, "value": (rate, "1"), "limit": (limit, "1"),
+    }  # fmt: skip
+    preview = because("checks.preview", element=name, rules=list(found.preview))
+    remarks = (preview,) if found.preview else ()
+    if any(why == "crashed" for why, _ in found.broken):
+        return judged(ElementStatus.UNDECIDED, *broken, *remarks)
+    if found.faulty / (found.checked + found.unrun) > limit:
+        return judged(ElementStatus.FAIL, because("faulty.fail", **fields), *broken, *unseen(evidence, name), *remarks)
+    if found.absent:
+        absent = because("checks.absent", element=name, rules=list(found.absent))
+        return judged(ElementStatus.NOT_ASSESSED, absent, *broken, *remarks)
+    doubts = [*broken, *unseen(evidence, name)]
+    if (found.faulty + found.aside) / found.checked > limit:
+        doubts.append(because("faulty.aside", aside=found.aside, **fields))
+    if doubts:
+        return judged(ElementStatus.UNDECIDED, *doubts, *remarks)
+    return judged(ElementStatus.PASS, because("faulty.pass", **fields), *remarks)

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT
+"""Omission: specified features that are not drawn."""
+
+from foparq.evaluate.balance import Balance, Gap, balances, doubtful, gap_reasons, no_balance, uncounted, unmapped
+from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
+from foparq.evaluate.quality import Element, ElementStatus, because
+from foparq.profile.schema import ElementSpec
+
+_MEASURE = "7"
+
+
+def omission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+    """Missing required features over required ones, measure 7; the limit may be reached.
+
+    Omissions that were accepted with evidence are shown in the net rate beside the gross one; the gross rate decides.
+
+    The order of decisions:
+
+    1. No list, or no layer bound to a class: not assessed. A drawing that contradicts its own unit: undecided.
+    2. Parts of the drawings that nobody saw may hold what is missing: a rate above the limit is undecided.
+    3. The rate exceeds the limit, even if the classes that could not be compared were complete: it fails.
+    4. Classes that could not be compared: undecided, and named. No layer bound to a class is no evidence of omission.
+    5. Otherwise it passes.
+
+    Parameters
+    ----------
+    spec : ElementSpec
+    evidence : Evidence
+
+    Returns
+    -------
+    tuple of one Element
+    """
+    scope = ", ".join(filter(None, [evidence.files("features"), evidence.files("drawing")]))
+    limit, no_limit = limit_of(spec, evidence, "1", spec.id)
+    features, counts = evidence.delivery.features, evidence.counts
+    nothing = no_balance(evidence, spec.id)
+    if nothing is not None or features is None or counts is None:
+        judgement = nothing or judged(ElementStatus.NOT_ASSESSED, because("features.no-list", element=spec.id))
+        return (element(spec, _MEASURE, judgement, scope=scope, limit=limit, comparison="<=", method="directExternal"),)
+    every = tuple(row for row in balances(features, counts) if row.gap is not Gap.UNLISTED)
+    known = [row for row in every if row.gap is Gap.NONE]
+    required, missing = sum(row.required for row in known), sum(row.missing for row in known)
+    net = sum(row.missing_net for row in known)
+    if no_limit is not None or limit is None:
+        judgement = judged(ElementStatus.UNDECIDED, *filter(None, [no_limit]))
+    elif doubts := doubtful(evidence, spec.id):
+        judgement = judged(ElementStatus.UNDECIDED, *doubts)
+    else:
+        judgement = _judge(spec, evidence, every, limit)
+    parameters = [
+        ("missing", float(missing), "items"), ("required", float(sum(row.required for row in every)), "items"),
+        ("not-compared", float(sum(row.required for row in every) - required), "items"),
+        ("missing-net", float(net), "items"), ("accepted", float(sum(row.accepted for row in known)), "items"),
+    ]  # fmt: skip
+    if required:
+        parameters.append(("net-rate", net / required, "1"))
+    made = element(
+        spec, _MEASURE, judged(judgement.status, *judgement.why, *unmapped(counts, spec.id)), scope=scope, n=required,
+        value=missing / required if required else None, limit=limit, comparison="<=", parameters=parameters,
+        method="directExternal",
+        details=tuple((row.label, float(row.missing), float(row.required)) for row in known if row.required),
+    )  # fmt: skip
+    return (made,)
+
+
+def _judge(spec: ElementSpec, evidence: Evidence, every: tuple[Balance, ...], limit: float) -> Judgement:
+    name = spec.id
+    known = [row for row in every if row.gap is Gap.NONE]
+    required, total = sum(row.required for row in known), sum(row.required for row in every)
+    missing, net = sum(row.missing for row in known), sum(row.missing_net for row in known)
+    gaps = gap_reasons(tuple(row for row in every if row.required), name, (Gap.UNBOUND, Gap.FACADE))
+    if not total:
+        return judged(ElementStatus.NOT_ASSESSED, because("omission.nothing-required", element=name))
+    if not required:
+        return judged(ElementStatus.UNDECIDED, *gaps)
+    fields = {
+        "element": name, "missing": missing, "required": required, "value": (missing / required, "1"),
+        "limit": (limit, "1"),
+    }  # fmt: skip
+    remarks = []
+    if net < missing:
+        remarks.append(
+            because("omission.net", element=name, missing=net, accepted=missing - net, value=(net / required, "1"))
+        )
+    if unproven := sum(row.unproven for row in known):
+        remarks.append(because("omission.unproven", element=name, n=unproven))
+    hidden = (*unseen(evidence, name), *uncounted(evidence, name))
+    if missing / required > limit and hidden:
+        return judged(ElementStatus.UNDECIDED, because("omission.hidden", **fields), *hidden, *gaps, *remarks)
+    if missing / total > limit:
+        return judged(ElementStatus.FAIL, because("omission.fail", **fields), *gaps, *remarks)
+    if gaps:
+        return judged(ElementStatus.UNDECIDED, *gaps, *remarks)
+    return judged(ElementStatus.PASS, because("omission.pass", **fields), *remarks)

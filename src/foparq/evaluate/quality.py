@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""The quality report as records: elements after ISO 19157, and the verdict."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class ElementStatus(StrEnum):
+    """Result of one quality element (design law 1)."""
+
+    PASS = "pass"  # noqa: S105 - a result, not a password
+    FAIL = "fail"
+    UNDECIDED = "undecided"
+    NOT_APPLICABLE = "not-applicable"
+    NOT_ASSESSED = "not-assessed"
+
+
+class Verdict(StrEnum):
+    """What the reviewer can defend."""
+
+    ACCEPTED = "accepted"
+    REJECTED = "rejected"
+    UNDECIDED = "undecided"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reason:
+    """A sentence to be made: message id in the ``evaluate`` catalogue and what it names.
+
+    Fields that are lengths are pairs (value, unit) so that every language writes them its own way.
+    """
+
+    message: str
+    fields: tuple[tuple[str, object], ...] = ()
+
+
+def because(message: str, **fields: object) -> Reason:
+    """Reason of a message id and the values it names."""
+    return Reason(message=message, fields=tuple(fields.items()))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Element:
+    """One quality element with its measure, value, limit and status."""
+
+    id: str  #: ``"Q1-X"``, ``"Q2"``, ``"Q3"``
+    element: str  #: ISO 19157 element: ``"AbsoluteExternalPositionalAccuracy"``
+    measure_id: str  #: ISO 19157 measure id, or ``"foparq:..."`` for our own
+    measure_name: str  #: English name of the measure, as in the standard
+    scope: str  #: what was measured: files, facade, class
+    value: float | None  #: SI; ``None`` if not assessed
+    unit: str  #: ``"m"``, ``"1"``, ``"items"``, ``""``
+    limit: float | None  #: in the same unit; ``None`` if there is none
+    comparison: str  #: ``"<"`` or ``"<="``: value COMPARISON limit passes; ``">"`` likewise
+    n: int  #: sample size or denominator
+    status: ElementStatus
+    required: bool  #: the verdict depends on it
+    why: tuple[Reason, ...] = ()
+    parameters: tuple[tuple[str, float, str], ...] = ()  #: name, value, unit: mean, sd, t, critical ...
+    method: str = "directInternal"  #: ISO 19157 evaluation method type, or ``directExternal``
+    details: tuple[tuple[str, float, float], ...] = ()  #: per class or rule: name, found, out of
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class QualityReport:
+    """All elements of one delivery and the verdict."""
+
+    verdict: Verdict
+    why: tuple[Reason, ...]
+    elements: tuple[Element, ...]

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""Relative positional accuracy: RMSE of delivered minus measured distances."""
+
+from foparq.accuracy.differences import differences
+from foparq.accuracy.moments import moments
+from foparq.evaluate.evidence import Evidence, element, judged, limit_of
+from foparq.evaluate.quality import Element, ElementStatus, because
+from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters
+from foparq.profile.schema import ElementSpec
+
+_MEASURE = "foparq:distance-rmse"
+
+
+def relative(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+    """RMSE of distances against the limit, strict ``<``.
+
+    Parameters
+    ----------
+    spec : ElementSpec
+    evidence : Evidence
+
+    Returns
+    -------
+    tuple of one Element
+        See :func:`foparq.evaluate.threshold.judge_rmse` for the order of decisions.
+    """
+    distances = evidence.delivery.distances
+    scope = evidence.files("distances")
+    limit, no_limit = limit_of(spec, evidence, "m", spec.id)
+    if distances is None or not len(distances.id):
+        case = because("relative.lost" if evidence.lost("distances") else "relative.none", element=spec.id)
+        judgement = judged(ElementStatus.NOT_ASSESSED, case)
+        return (element(spec, _MEASURE, judgement, scope=scope, limit=limit, comparison="<", method="directExternal"),)
+    sample = Sample(
+        kind="relative", id=spec.id, all=differences(distances.delivered, distances.measured),
+        resolution=distances.resolution, survey_sd=distances.survey_sd,
+    )  # fmt: skip
+    judgement = judged(ElementStatus.UNDECIDED, no_limit) if no_limit else judge_rmse(sample, spec, limit or 0.0)
+    found = moments(sample.known)
+    made = element(
+        spec, _MEASURE, judgement, scope=scope, n=found.n, value=found.rmse, limit=limit, comparison="<",
+        parameters=rmse_parameters(sample, spec), method="directExternal",
+    )  # fmt: skip
+    return (made,)

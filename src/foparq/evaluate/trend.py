@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: MIT
+"""Trend of coordinate differences: whether their mean is other than zero."""
+
+import math
+
+import numpy as np
+
+from foparq.accuracy.differences import differences
+from foparq.accuracy.moments import Moments, moments
+from foparq.accuracy.normality import anderson_darling
+from foparq.accuracy.student import StudentTest, sign_test, student_test
+from foparq.evaluate.absolute import AXES
+from foparq.evaluate.evidence import Evidence, Judgement, element, judged
+from foparq.evaluate.quality import Element, ElementStatus, Reason, because
+from foparq.model.items import Reals
+from foparq.model.tables import Checkpoints
+from foparq.profile.schema import ElementSpec
+
+_MEASURE = "foparq:trend"
+_FEWEST = 3  #: two differences have one degree of freedom: hardly any trend would show
+
+
+def trend(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+    """Student t of the mean difference of each axis; the absolute value of t must not exceed the critical value.
+
+    Parameters
+    ----------
+    spec : ElementSpec
+    evidence : Evidence
+
+    Returns
+    -------
+    tuple of Element
+        ``Q6-X``, ``Q6-Y``, ``Q6-Z``. The mean is ISO 19157 measure 128, among the parameters. If the differences do not
+        look normal a remark says so and gives the sign test, which needs no normality.
+    """
+    points = evidence.delivery.checkpoints
+    scope = evidence.files("checkpoints")
+    if points is None or not len(points.id):
+        case = "absolute.lost" if evidence.lost("checkpoints") else "absolute.none"
+        ids = [f"{spec.id}-{axis}" for axis in AXES]
+        return tuple(
+            element(
+                spec, _MEASURE, judged(ElementStatus.NOT_ASSESSED, because(case, element=id_)), id=id_, scope=scope,
+                comparison="<=", method="directExternal",
+            )
+            for id_ in ids
+        )  # fmt: skip
+    return tuple(_axis(spec, points, scope, axis) for axis in range(len(AXES)))
+
+
+def _axis(spec: ElementSpec, points: Checkpoints, scope: str, axis: int) -> Element:
+    id_ = f"{spec.id}-{AXES[axis]}"
+    every = differences(points.delivered[:, axis], points.surveyed[:, axis])
+    known = every[np.isfinite(every)]
+    found = moments(known)
+    fewest = max(spec.fewest, _FEWEST)
+    if found.n < fewest:
+        judgement = judged(ElementStatus.UNDECIDED, because("absolute.few", element=id_, n=found.n, fewest=fewest))
+        return element(
+            spec, _MEASURE, judgement, id=id_, scope=scope, n=found.n, comparison="<=", method="directExternal",
+            parameters=(("mean", found.mean, "m"), ("sd", found.sd, "m"), ("n", float(found.n), "items")),
+        )  # fmt: skip
+    test = student_test(known, confidence=spec.confidence)
+    judgement = _judge(id_, test, found, len(every), float(points.resolution[axis]))
+    remarks, extra = _normality(id_, known, spec.confidence)
+    parameters = (
+        ("mean", found.mean, "m"), ("sd", found.sd, "m"), ("n", float(found.n), "items"),
+        ("freedom", float(test.freedom), ""), ("p", test.p, ""), ("confidence", spec.confidence, "1"), *extra,
+    )  # fmt: skip
+    return element(
+        spec, _MEASURE, judged(judgement.status, *judgement.why, *remarks), id=id_, scope=scope, n=found.n,
+        value=abs(test.t), limit=test.critical, comparison="<=", parameters=(*parameters, ("t", test.t, "")),
+        method="directExternal",
+    )  # fmt: skip
+
+
+def _judge(id_: str, test: StudentTest, found: Moments, total: int, resolution: float) -> Judgement:
+    fields = {
+        "element": id_, "n": found.n, "mean": (found.mean, "m"), "t": (abs(test.t), ""),
+        "critical": (test.critical, ""),
+    }  # fmt: skip
+    if total > found.n:
+        missing = total - found.n
+        return judged(ElementStatus.UNDECIDED, because("trend.missing", missing=missing, total=total, **fields))
+    if abs(test.t) <= test.critical:
+        return judged(ElementStatus.PASS, because("trend.pass", **fields))
+    if abs(found.mean) <= resolution:
+        # The mean is no larger than what rounding alone may have made of zero.
+        return judged(ElementStatus.UNDECIDED, because("trend.rounding", resolution=(resolution, "m"), **fields))
+    if math.isinf(test.t):
+        return judged(ElementStatus.FAIL, because("trend.constant", element=id_, n=found.n, mean=(found.mean, "m")))
+    return judged(ElementStatus.FAIL, because("trend.fail", **fields))
+
+
+def _normality(
+    id_: str, known: Reals, confidence: float
+) -> tuple[tuple[Reason, ...], tuple[tuple[str, float, str], ...]]:
+    if np.ptp(known) == 0.0:
+        return (), ()
+    normal = anderson_darling(known)
+    if normal.p > 1.0 - confidence:
+        return (), (("normality-p", normal.p, ""),)
+    sign = sign_test(known)
+    doubt = because("trend.not-normal", element=id_, p=(normal.p, ""), sign=(sign, ""))
+    return (doubt,), (("normality-p", normal.p, ""), ("sign-p", sign, ""))

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: MIT
+"""The verdict on a delivery: no evidence is never a pass."""
+
+from collections.abc import Iterable, Sequence
+
+from foparq.evaluate.absolute import AXES
+from foparq.evaluate.evidence import Evidence
+from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
+from foparq.findings.outcome import Status
+from foparq.model.delivery import SourceStatus
+from foparq.profile.schema import Profile
+
+_OPEN = set(ElementStatus) - {ElementStatus.PASS, ElementStatus.FAIL}
+_LOST = {SourceStatus.REFUSED: "verdict.refused", SourceStatus.MISSING: "verdict.missing"}
+
+
+def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element], *, crashed: bool) -> QualityReport:
+    """Verdict over all elements, with its reasons, the decisive ones first.
+
+    Rejected: a required element fails. Else undecided: a required element is undecided or not assessed, a file that the
+    manifest names could not be read, something crashed, or nothing is required. Else accepted.
+
+    Parameters
+    ----------
+    profile : Profile
+    evidence : Evidence
+    elements : sequence of Element
+    crashed : bool
+        True if anything of the program crashed.
+
+    Returns
+    -------
+    QualityReport
+    """
+    waived = {name for spec in profile.elements if not spec.applicable for name in _results(spec.id)}
+    required = [element for element in elements if element.required and element.id not in waived]
+    failed = [element for element in required if element.status is ElementStatus.FAIL]
+    failing = _together(element.why[:1] for element in failed)
+    doubts = _together(element.why for element in required if element.status in _OPEN)
+    doubts += _lost(evidence) + _crashes(evidence, crashed=crashed)
+    if not required:
+        doubts.append(because("verdict.nothing-required"))
+    if failed:
+        shift = [because("verdict.shift")] if _shifted(profile, elements) else []
+        return QualityReport(verdict=Verdict.REJECTED, why=(*failing, *shift, *doubts), elements=tuple(elements))
+    if doubts:
+        return QualityReport(verdict=Verdict.UNDECIDED, why=tuple(doubts), elements=tuple(elements))
+    why = [because("verdict.accepted", elements=[element.id for element in required])]
+    others = [element.id for element in elements if element not in required]
+    if others:
+        why.append(because("verdict.not-required", elements=others))
+    remarks = _together(element.why[1:] for element in required)
+    return QualityReport(verdict=Verdict.ACCEPTED, why=(*why, *remarks), elements=tuple(elements))
+
+
+def _together(groups: Iterable[Sequence[Reason]]) -> list[Reason]:
+    """Reasons in order; those that differ in nothing but the element become one that names all of them."""
+    made: dict[tuple[str, str], list[str]] = {}
+    first: dict[tuple[str, str], Reason] = {}
+    for group in groups:
+        for reason in group:
+            rest = tuple(field for field in reason.fields if field[0] != "element")
+            key = (reason.message, repr(rest))
+            first.setdefault(key, reason)
+            names = made.setdefault(key, [])
+            names.extend(str(value) for name, value in reason.fields if name == "element" and value not in names)
+    return [_naming(reason, made[key]) for key, reason in first.items()]
+
+
+def _naming(reason: Reason, names: list[str]) -> Reason:
+    if len(names) < 2:  # noqa: PLR2004 - one name stays as it is
+        return reason
+    return Reason(
+        message=reason.message,
+        fields=tuple((name, names if name == "element" else value) for name, value in reason.fields),
+    )
+
+
+def _shifted(profile: Profile, elements: Sequence[Element]) -> bool:
+    """Good distances with bad positions point to a systematic shift or rotation."""
+
+    def statuses(kind: str) -> set[ElementStatus]:
+        ids = [spec.id for spec in profile.elements if spec.kind == kind]
+        return {element.status for element in elements if any(element.id in _results(id_) for id_ in ids)}
+
+    return ElementStatus.FAIL in statuses("absolute") and statuses("relative") == {ElementStatus.PASS}
+
+
+def _results(id_: str) -> tuple[str, ...]:
+    """Ids of the results that one element of the profile may give."""
+    return (id_, *(f"{id_}-{axis}" for axis in AXES))
+
+
+def _lost(evidence: Evidence) -> list[Reason]:
+    return [
+        because(message, files=files)
+        for status, message in _LOST.items()
+        if (files := [source.path for source in evidence.delivery.sources if source.status is status])
+    ]
+
+
+def _crashes(evidence: Evidence, *, crashed: bool) -> list[Reason]:
+    rules = sorted({f"{o.name} ({o.source})" for o in evidence.outcomes if o.status is Status.CRASHED})
+    if rules:
+        return [because("verdict.crashed-rules", rules=rules)]
+    return [because("verdict.crashed")] if crashed else []

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+"""What a rule returns: faulty things, as columns."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Index = NDArray[np.intp]
+Reals = NDArray[np.float64]
+Geometries = NDArray[np.object_]
+
+NOBODY = -1  #: in ``Hits.other``: no second item is involved
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hits:
+    """Things found at fault, as columns of equal length k, ordered by (row, other, place)."""
+
+    row: Index  #: (k,) row in the rule's first input
+    where: Geometries  #: (k,) place to look at, in the coordinates of that input; empty if the fault has none
+    size: Reals  #: (k,) magnitude, in the unit the rule declares
+    other: Index  #: (k,) row of the second item involved, or ``NOBODY``
+
+    def __len__(self) -> int:
+        return len(self.row)
+
+
+def hits(row: Index, where: Geometries, size: Reals, other: Index | None = None) -> Hits:
+    """Hits in their defined order.
+
+    Parameters
+    ----------
+    row : (k,) int
+    where : (k,) shapely geometries
+    size : (k,) float
+    other : (k,) int, optional
+        ``NOBODY`` everywhere if left out.
+
+    Returns
+    -------
+    Hits
+        Ordered by row, other, then the lower left corner of the place.
+    """
+    import shapely  # noqa: PLC0415 - the records load without a geometry engine
+
+    row = np.asarray(row, dtype=np.intp)
+    others = np.full(len(row), NOBODY, dtype=np.intp) if other is None else np.asarray(other, dtype=np.intp)
+    places = np.asarray(where, dtype=object)
+    corner = np.round(shapely.bounds(places), 6) if len(row) else np.zeros((0, 4))
+    order = np.lexsort((corner[:, 1], corner[:, 0], others, row))
+    return Hits(row=row[order], where=places[order], size=np.asarray(size, dtype=float)[order], other=others[order])
+
+
+def no_hits() -> Hits:
+    """Hits of a rule that found nothing."""
+    nothing = np.empty(0, dtype=np.intp)
+    return Hits(row=nothing, where=np.empty(0, dtype=object), size=np.empty(0), other=nothing)

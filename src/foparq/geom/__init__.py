@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Kernels of plane geometry on numpy and shapely arrays."""

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: MIT
+"""Areas that should cover a surface once: where two of them overlap, and where they leave a gap."""
+
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from foparq.geom.polylines import ROUNDING
+
+Reals = NDArray[np.float64]
+Index = NDArray[np.intp]
+Geometries = NDArray[np.object_]
+
+#: corners sharper than this many times the growth are cut, so that growing stays near
+_MITRE = 5.0
+_POLYGON = shapely.GeometryType.POLYGON
+
+
+class AreaOverlaps(NamedTuple):
+    """Pairs of areas that cover a place twice, k rows in order of (later, earlier)."""
+
+    earlier: Index  #: (k,)
+    later: Index  #: (k,)
+    common: Geometries  #: (k,) polygon or polygons
+    area: Reals  #: (k,) square metres
+
+
+class Gaps(NamedTuple):
+    """Enclosed places that no area covers, k rows in order of (first, second)."""
+
+    first: Index  #: (k,) first area that bounds it
+    second: Index  #: (k,) second area that bounds it
+    gap: Geometries  #: (k,) polygon
+    area: Reals  #: (k,) square metres
+
+
+def area_overlaps(areas: Geometries, *, least: float) -> AreaOverlaps:
+    """Pairs of areas whose common area is greater than ``least``.
+
+    Parameters
+    ----------
+    areas : (n,) valid shapely polygons
+    least : float, square metres
+
+    Returns
+    -------
+    AreaOverlaps
+        ``common`` holds the polygons of the intersection; lines and points that areas share are left out.
+
+    Notes
+    -----
+    O(n log n + pairs that touch). Depth is not looked at.
+    """
+    local, origin = _near_zero(areas)
+    i, j = shapely.STRtree(local).query(local, predicate="intersects")
+    i, j = i[i < j], j[i < j]
+    common = shapely.intersection(local[i], local[j])
+    area = shapely.area(common)
+    over = np.flatnonzero(area > least + _slack(areas) * shapely.length(common) + 1e-9 * least)
+    over = over[np.lexsort((i[over], j[over]))]
+    return AreaOverlaps(i[over], j[over], _moved(_polygons_only(common[over]), origin), area[over])
+
+
+def coverage_gaps(areas: Geometries, *, coincide: float, most: float) -> Gaps:
+    """Places enclosed by areas together, covered by none, not larger than ``most``.
+
+    Parameters
+    ----------
+    areas : (n,) valid shapely polygons
+    coincide : float, metres
+        A place narrower than this is no gap, and an opening narrower than this does not let out.
+    most : float, square metres
+        A larger place is meant to be open.
+
+    Returns
+    -------
+    Gaps
+        The areas are grown by half of ``coincide``; what they then enclose is grown back. It follows that a disc of
+        diameter ``coincide`` fits into every gap, and that parts of a gap narrower than ``coincide`` do not count.
+
+    Notes
+    -----
+    O(v log v) in the vertices. A gap is bounded by at least two areas, counted within ``coincide``: a hole of one area
+    is none. Two parts of one feature are two areas here.
+    """
+    if not len(areas):
+        nothing = np.empty(0, dtype=np.intp)
+        return Gaps(nothing, nothing, np.empty(0, dtype=object), np.empty(0))
+    local, origin = _near_zero(areas)
+    half = coincide / 2 + _slack(areas)
+    covered = shapely.union_all(_grown(local, half))
+    x0, y0, x1, y1 = shapely.bounds(covered)
+    frame = shapely.box(x0 - 1, y0 - 1, x1 + 1, y1 + 1)
+    open_parts = shapely.get_parts(shapely.difference(frame, covered))
+    # The part outside of everything touches the frame.
+    enclosed = open_parts[~shapely.intersects(open_parts, shapely.get_exterior_ring(frame))]
+    enclosed = _polygons_only(_grown(enclosed, half))
+    area = shapely.area(enclosed)
+    small = (area > 0) & (area <= most + _slack(areas) * shapely.length(enclosed) + 1e-9 * most)
+    enclosed, area = enclosed[small], area[small]
+
+    gap, side = shapely.STRtree(local).query(enclosed, predicate="dwithin", distance=2 * half)
+    first = np.full(len(enclosed), len(areas), dtype=np.intp)
+    np.minimum.at(first, gap, side)
+    second = np.full(len(enclosed), len(areas), dtype=np.intp)
+    later = side != first[gap]
+    np.minimum.at(second, gap[later], side[later])
+    kept = np.flatnonzero(second < len(areas))
+    kept = kept[np.lexsort((second[kept], first[kept]))]
+    return Gaps(first[kept], second[kept], _moved(enclosed[kept], origin), area[kept])
+
+
+def _grown(shapes: Geometries, by: float) -> Geometries:
+    grown: Geometries = shapely.buffer(shapes, by, join_style="mitre", mitre_limit=_MITRE)
+    return grown
+
+
+def _slack(areas: Geometries) -> float:
+    """Metres by which a boundary may be off because coordinates are rounded."""
+    largest = float(np.abs(shapely.get_coordinates(areas)).max(initial=0.0))
+    return ROUNDING + 4 * float(np.spacing(largest))
+
+
+def _near_zero(areas: Geometries) -> tuple[Geometries, Reals]:
+    """The areas moved to near zero, where computing loses no digits, and by how much."""
+    coordinates = shapely.get_coordinates(areas)
+    origin = np.floor(coordinates.min(axis=0)) if len(coordinates) else np.zeros(2)
+    return _moved(areas, -origin), origin
+
+
+def _moved(shapes: Geometries, by: Reals) -> Geometries:
+    moved: Geometries = shapely.transform(shapes, lambda coordinates: coordinates + by)
+    return moved
+
+
+def _polygons_only(shapes: Geometries) -> Geometries:
+    """Polygonal part (n,) of each geometry; lines and points are dropped."""
+    kind = shapely.get_type_id(shapes)
+    mixed = np.flatnonzero(kind == shapely.GeometryType.GEOMETRYCOLLECTION)
+    shapes = shapes.copy()
+    for row in mixed:
+        parts = shapely.get_parts(shapes[row])
+        parts = parts[shapely.get_type_id(parts) == _POLYGON]
+        shapes[row] = parts[0] if len(parts) == 1 else shapely.multipolygons(parts)
+    return shapes

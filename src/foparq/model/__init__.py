@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Delivered things: drawings, tables and the delivery that holds them."""

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+"""One delivery: everything that was handed over, and the state of each file."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from foparq.model.drawing import Drawing, Skipped
+from foparq.model.tables import Checkpoints, Distances, FeatureList
+
+
+class SourceStatus(StrEnum):
+    """How a file of the delivery was taken in."""
+
+    READ = "read"
+    RECOVERED = "recovered"  #: readable only after mending in memory
+    REFUSED = "refused"  #: unreadable or unsafe: nothing of it was checked
+    UNNAMED = "unnamed"  #: lies in the folder, the manifest does not name it: not checked
+    MISSING = "missing"  #: named by the manifest, not there
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Source:
+    """One file of the delivery."""
+
+    path: str  #: relative to the delivery, with ``/``
+    role: str  #: ``drawing``, ``checkpoints``, ``distances``, ``features``, ``manifest`` or ``other``
+    sha256: str  #: of the delivered bytes; ``""`` if missing
+    bytes: int
+    status: SourceStatus
+    items: int = 0  #: items or rows read
+    skipped: tuple[Skipped, ...] = ()
+    error: str = ""  #: message id in the ``errors`` catalogue when refused
+    fields: tuple[tuple[str, object], ...] = ()  #: what that message names
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Delivery:
+    """What was delivered, as read."""
+
+    title: str
+    sources: tuple[Source, ...]
+    drawings: tuple[Drawing, ...] = ()
+    checkpoints: Checkpoints | None = None
+    distances: Distances | None = None
+    features: FeatureList | None = None

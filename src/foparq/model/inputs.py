@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: MIT
+"""What rules look at: columns of one kind of thing, each row with its name in the file.
+
+Geometry is in the drawing's plane: metres, x to the right, y up, z depth where the drawing has any. Rows are in a
+defined order that does not depend on the order of the file.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+import shapely
+
+from foparq.geom.polylines import Polylines
+from foparq.model.items import Flags, Geometries, Index, Reals, Texts
+
+
+@dataclass(frozen=True, kw_only=True)
+class Named:
+    """Columns that name a row in the file; every input of a rule has them. n rows."""
+
+    layer: Texts  #: (n,)
+    item: Texts  #: (n,) unique id in the drawing; ``""`` where no item is meant
+    handle: Texts  #: (n,) as written in the file
+    inserts: Texts  #: (n,) chain of block inserts
+    row: Index  #: (n,) row in the drawing's items; -1 where no item is meant
+
+    def __len__(self) -> int:
+        return len(self.layer)
+
+    def take(self, rows: Index | Flags) -> Self:
+        """The chosen rows, in that order."""
+        return type(self)(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Features(Named):
+    """Every delivered geometry of model space: lines, areas, points."""
+
+    geometry: Geometries  #: (n,) may be ``None``, empty or invalid
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lines(Named):
+    """Linework: lines and the boundaries of areas, each one ``LineString`` of finite coordinates."""
+
+    geometry: Geometries  #: (n,)
+    bounds: Flags  #: (n,) true for the boundary of an area: neighbours may share it
+
+    @cached_property
+    def polylines(self) -> Polylines:
+        """The same lines as coordinate columns with a spatial index, built once."""
+        return Polylines.of(self.geometry)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Areas(Named):
+    """Areas of one coverage, each one valid ``Polygon``."""
+
+    geometry: Geometries  #: (n,)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Repairs(Named):
+    """What had to be mended before the file could be read."""
+
+    code: Texts  #: (n,) the reader's code
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bombs(Named):
+    """Blocks that were not taken apart."""
+
+    entities: Reals  #: (n,) entities the block would expand to; -1 for a cycle
+    where: Geometries  #: (n,) insertion point, or empty
+
+
+@dataclass(frozen=True, kw_only=True)
+class HiddenItems(Named):
+    """Layers with items that nobody sees; one row a layer."""
+
+    count: Reals  #: (n,) items
+    where: Geometries  #: (n,) box around them
+
+
+@dataclass(frozen=True, kw_only=True)
+class LayerNames(Named):
+    """Names of layers of one file; one row a name."""
+
+    doubly_encoded: Flags  #: (n,) true if the name reads like UTF-8 taken for another encoding
+    count: Reals  #: (n,) items on the layer
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnitEvidence(Named):
+    """Statements about the drawing unit other than the one in use; one row a statement."""
+
+    says: Reals  #: (n,) metres in one drawing unit by this statement
+    used: Reals  #: (n,) metres in one drawing unit as used; NaN if none is known
+    weight: Reals  #: (n,) relative difference that this statement cannot tell apart
+    where: Geometries  #: (n,) place of the statement, or empty
+
+
+def nameless(n: int, layer: str = "0") -> dict[str, np.ndarray]:
+    """Naming columns for n rows of one layer, with the row number as item id; for tests and loose use."""
+    rows = np.arange(n)
+    text = np.array([str(row) for row in rows], dtype=object)
+    return {
+        "layer": np.full(n, layer, dtype=object), "item": text, "handle": text.copy(),
+        "inserts": np.full(n, "", dtype=object), "row": rows,
+    }  # fmt: skip
+
+
+def lines_of(geometry: Sequence[object]) -> Lines:
+    """Lines of well-known text or shapely geometries; for tests and loose use."""
+    shapes = _shapes(geometry)
+    return Lines(geometry=shapes, bounds=np.zeros(len(shapes), dtype=bool), **nameless(len(shapes)))
+
+
+def areas_of(geometry: Sequence[object]) -> Areas:
+    """Areas of well-known text or shapely geometries; for tests and loose use."""
+    shapes = _shapes(geometry)
+    return Areas(geometry=shapes, **nameless(len(shapes)))
+
+
+def features_of(geometry: Sequence[object]) -> Features:
+    """Features of well-known text or shapely geometries; for tests and loose use."""
+    shapes = _shapes(geometry)
+    return Features(geometry=shapes, **nameless(len(shapes)))
+
+
+def _shapes(geometry: Sequence[object]) -> Geometries:
+    shapes = np.empty(len(geometry), dtype=object)
+    for n, shape in enumerate(geometry):
+        shapes[n] = shapely.from_wkt(shape) if isinstance(shape, str) else shape
+    return shapes

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""The contract, typed: product specifications and delivery manifests."""

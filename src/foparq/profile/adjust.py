@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: MIT
+"""Profiles changed for one run: rules chosen, tolerances set."""
+
+from collections.abc import Sequence
+
+from pydantic import ValidationError
+
+from foparq.errors import QuantityError, UsageError
+from foparq.profile.schema import CheckSpec, Profile, ReadingSpec
+from foparq.units import parse_any_quantity
+
+_EXAMPLE = "undershoot.reach=10mm"
+
+
+def choose(profile: Profile, names: Sequence[str]) -> Profile:
+    """Profile that runs only the named rules, with the elements that need no other."""
+    kept = set(names)
+    checks = tuple(spec for spec in profile.checks if spec.rule in kept)
+    elements = tuple(spec for spec in profile.elements if set(spec.rules) <= kept)
+    return profile.model_copy(update={"checks": checks, "elements": elements})
+
+
+def with_settings(profile: Profile, settings: Sequence[str]) -> Profile:
+    """Profile with tolerances and reading options set on the command line.
+
+    Parameters
+    ----------
+    profile : Profile
+    settings : sequence of str
+        ``"undershoot.reach=10mm"``, ``"*.coincide=1um"`` for every rule that has the tolerance,
+        ``"reading.blocks=skip"``.
+
+    Returns
+    -------
+    Profile
+
+    Raises
+    ------
+    UsageError
+        If a setting is not understood, or names nothing of the profile.
+    """
+    for setting in settings:
+        profile = _with_setting(profile, setting)
+    return profile
+
+
+def _with_setting(profile: Profile, setting: str) -> Profile:
+    target, equals, text = setting.partition("=")
+    name, dot, key = target.strip().rpartition(".")
+    if not equals or not dot:
+        raise UsageError("usage.setting", value=setting, example=_EXAMPLE)
+    if name == "reading":
+        return _with_reading(profile, key, text.strip(), setting)
+    try:
+        quantity = parse_any_quantity(text)
+    except QuantityError:
+        raise UsageError("usage.setting", value=setting, example=_EXAMPLE) from None
+    changed = 0
+    checks: list[CheckSpec] = []
+    for spec in profile.checks:
+        if name in {spec.rule, "*"} and key in spec.tolerances:
+            changed += 1
+            checks.append(spec.model_copy(update={"tolerances": {**spec.tolerances, key: quantity}}))
+        else:
+            checks.append(spec)
+    if not changed:
+        known = sorted(f"{spec.rule}.{tolerance}" for spec in profile.checks for tolerance in spec.tolerances)
+        raise UsageError("usage.setting-unknown", value=target.strip(), known=", ".join(known), example=_EXAMPLE)
+    return profile.model_copy(update={"checks": tuple(checks)})
+
+
+def _with_reading(profile: Profile, key: str, text: str, setting: str) -> Profile:
+    if key not in ReadingSpec.model_fields:
+        raise UsageError(
+            "usage.setting-unknown",
+            value=f"reading.{key}",
+            known=", ".join(ReadingSpec.model_fields),
+            example="reading.blocks=skip",
+        )
+    try:
+        reading = ReadingSpec.model_validate({**dict(profile.reading), key: text})
+    except (ValidationError, QuantityError):
+        raise UsageError("usage.setting", value=setting, example="reading.blocks=skip") from None
+    return profile.model_copy(update={"reading": reading})

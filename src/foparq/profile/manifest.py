@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""The delivery manifest ``delivery.toml``, typed. Every section is optional; what is absent is not assessed."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field
+
+from foparq.profile.schema import Length, Strict
+from foparq.units import parse_length_unit, parse_scale
+
+
+def _known_unit(text: object) -> str:
+    parse_length_unit(str(text))
+    return str(text)
+
+
+def _known_scale(text: object) -> str:
+    parse_scale(text)
+    return str(text)
+
+
+Triple = tuple[float, float, float]
+UnitName = Annotated[str, BeforeValidator(_known_unit)]
+ScaleText = Annotated[str, BeforeValidator(_known_scale)]
+
+
+class DeliverySection(Strict):
+    """``[delivery]``: what was delivered and against what it is audited."""
+
+    title: str = ""
+    profile: str = "et-doc-foparq-a"  #: a shipped name, or a path
+    scale: ScaleText | None = None
+    crs: str = "local"
+    language: Literal["pt-BR", "en"] | None = None
+
+
+class DrawingSection(Strict):
+    """``[[drawing]]``: one vector drawing."""
+
+    path: str
+    unit: UnitName | None = None
+    plane: Literal["xy", "xz", "yz", "fit"] | tuple[Triple, Triple, Triple] = "xy"
+    facade: str = ""
+    classes: Mapping[str, str] = Field(default_factory=dict)  #: layer pattern to feature class
+    areas: tuple[str, ...] = ()  #: layers whose closed lines bound areas that cover without gap or overlap
+    layers: tuple[str, ...] = ()  #: tables of a GeoPackage to read; all if left out
+
+
+class TableSection(Strict):
+    """``[features]``: one table."""
+
+    path: str
+
+
+class SurveySection(TableSection):
+    """``[checkpoints]`` and ``[distances]``: a table and how well it was surveyed."""
+
+    survey_sd: Length | None = None
+    unit: UnitName = "m"
+
+
+class Manifest(Strict):
+    """A delivery manifest."""
+
+    delivery: DeliverySection = DeliverySection()
+    drawing: tuple[DrawingSection, ...] = ()
+    features: TableSection | None = None
+    checkpoints: SurveySection | None = None
+    distances: SurveySection | None = None
+    record: Mapping[str, Any] | None = None  #: descriptive record: kept, not assessed yet
+    metadata: Mapping[str, Any] | None = None  #: kept, not assessed yet
+    capture: Mapping[str, Any] | None = None  #: kept, not assessed yet

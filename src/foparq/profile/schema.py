@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""The product specification, typed: which rules on which layers with which tolerances, and which limits."""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+
+from foparq.findings.table import Severity
+from foparq.units import Quantity, parse_any_quantity, parse_quantity
+
+
+def _quantity(symbol: str) -> BeforeValidator:
+    return BeforeValidator(lambda text: text if isinstance(text, Quantity) else parse_quantity(text, symbol))
+
+
+Length = Annotated[Quantity, _quantity("m")]
+Area = Annotated[Quantity, _quantity("m2")]
+Share = Annotated[
+    float, BeforeValidator(lambda text: text if isinstance(text, float) else parse_quantity(text, "1").si())
+]
+AnyQuantity = Annotated[
+    Quantity, BeforeValidator(lambda text: text if isinstance(text, Quantity) else parse_any_quantity(text))
+]
+
+
+class Strict(BaseModel):
+    """A table of which every key is known."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+class CheckSpec(Strict):
+    """One rule bound to layers: ``[[check]]``."""
+
+    rule: str  #: name
+    severity: Severity
+    layers: tuple[str, ...] = ("*",)  #: patterns; the layers that match are checked together
+    apart: bool = False  #: check every layer by itself
+    tolerances: dict[str, AnyQuantity] = Field(default_factory=dict)
+    file: str = ""  #: where the profile says so
+    line: int = 0
+
+
+class ElementSpec(Strict):
+    """One required or reported quality element: ``[[element]]``."""
+
+    id: str  #: ``"Q1"``; one element may give several results (``Q1-X``, ``Q1-Y``, ``Q1-Z``)
+    kind: Literal["absolute", "trend", "relative", "normality", "faulty-rate", "found-rate", "commission", "omission"]
+    required: bool
+    applicable: bool = True  #: false: the class of product does not ask for it
+    limit: AnyQuantity | None = None
+    rules: tuple[str, ...] = ()  #: names; for ``faulty-rate`` and ``found-rate``
+    confidence: Share = 0.95  #: for tests
+    reference_share: Share | None = None  #: the reference must be better than this share of the limit
+    fewest: int = 2  #: observations below which nothing can be said
+
+
+class LimitsSpec(Strict):
+    """Bounds of time and space: ``[limits]``."""
+
+    entities: int = 2_000_000  #: entities after taking blocks apart, per drawing
+    vertices: int = 20_000_000  #: vertices after flattening, per drawing
+    bytes: int = 1_000_000_000  #: size of one file
+    seconds: int = 600  #: reading one file
+    memory: int = 2_000_000_000  #: bytes beyond the start, reading one file
+    written: int = 100_000  #: findings written, per rule; counting is never capped
+
+
+class CompletenessSpec(Strict):
+    """What counts as one delivered feature: ``[completeness]``."""
+
+    gap: Length  #: linework of one class nearer than this belongs to one feature
+
+
+class ReadingSpec(Strict):
+    """How drawings are taken in: ``[reading]``."""
+
+    sagitta: Length  #: greatest distance between a curve and the chords that replace it
+    blocks: Literal["explode", "skip"] = "explode"  #: ``skip``: only top-level linework is checked
+    hidden: Literal["leave", "check"] = "leave"  #: ``check``: off and frozen layers are looked at too
+
+
+class Profile(Strict):
+    """A product specification."""
+
+    name: str
+    title: dict[str, str]  #: per language
+    product_class: Literal["A", "B"]
+    norms: tuple[str, ...] = ()
+    scale: str | None = None
+    reading: ReadingSpec
+    completeness: CompletenessSpec | None = None
+    limits: LimitsSpec = LimitsSpec()
+    checks: tuple[CheckSpec, ...]
+    elements: tuple[ElementSpec, ...] = ()
+    path: str = ""  #: file it came from
+    sha256: str = ""  #: of that file, and of the one it extends

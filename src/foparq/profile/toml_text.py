@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+"""TOML with the line of every key, so that an error can say where."""
+
+import re
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from foparq.errors import UsageError
+
+_TABLE = re.compile(r"^\s*\[(?!\[)\s*(?P<path>[^\]]+?)\s*\]")
+_ARRAY = re.compile(r"^\s*\[\[\s*(?P<path>[^\]]+?)\s*\]\]")
+_KEY = re.compile(r"^\s*(?P<key>\"[^\"]*\"|'[^']*'|[A-Za-z0-9_.-]+)\s*=")
+_PLACE = re.compile(r"\(at line (\d+), column (\d+)\)")
+
+Place = tuple[str | int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TomlText:
+    """A TOML file as data, with line numbers."""
+
+    path: Path
+    data: dict[str, Any]
+    lines: dict[Place, int]
+
+    def line(self, place: Sequence[str | int]) -> int:
+        """Line of a key, or of the nearest table that holds it; 1-based."""
+        known = tuple(place)
+        while known and known not in self.lines:
+            known = known[:-1]
+        return self.lines.get(known, 1)
+
+
+def read_toml(path: Path, kind: type[UsageError]) -> TomlText:
+    """Read a TOML file.
+
+    Parameters
+    ----------
+    path : Path
+    kind : type of UsageError
+        What to raise.
+
+    Returns
+    -------
+    TomlText
+
+    Raises
+    ------
+    UsageError
+        Of that kind: if the file cannot be read, is not UTF-8, or is not TOML.
+    """
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except OSError as error:
+        raise kind("toml.unreadable", file=str(path), value=error.strerror or str(error)) from None
+    except UnicodeDecodeError as error:
+        raise kind("toml.not-utf8", file=str(path), value=error.start) from None
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        found = _PLACE.search(str(error))
+        line = int(found[1]) if found else len(text.splitlines())
+        shown = text.splitlines()[line - 1].strip() if 0 < line <= len(text.splitlines()) else ""
+        raise kind("toml.syntax", file=str(path), line=line, value=shown, example='unit = "m"') from None
+    return TomlText(path, data, _index(text))
+
+
+def _index(text: str) -> dict[Place, int]:
+    """Lines of tables and keys; written for messages, so a rare form may be missing."""
+    lines: dict[Place, int] = {}
+    counts: dict[str, int] = {}
+    table: Place = ()
+    for number, line in enumerate(text.splitlines(), start=1):
+        if found := _ARRAY.match(line):
+            name = found["path"]
+            counts[name] = counts.get(name, -1) + 1
+            table = (*_parts(name), counts[name])
+            lines[table] = number
+        elif found := _TABLE.match(line):
+            table = _parts(found["path"])
+            lines[table] = number
+        elif found := _KEY.match(line):
+            lines.setdefault((*table, *_parts(found["key"])), number)
+    return lines
+
+
+def _parts(path: str) -> tuple[str, ...]:
+    if path[:1] in "\"'":
+        return (path[1:-1],)
+    return tuple(part.strip().strip("\"'") for part in path.split("."))

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: MIT
+"""Names and letterings of a DXF file as people see them."""
+
+import re
+from typing import Any
+
+from ezdxf.lldxf.encoding import decode_dxf_unicode, decode_mif_to_unicode
+from ezdxf.tools.text import fast_plain_mtext, plain_text
+
+_SURROGATE = re.compile("[\ud800-\udfff]")  #: stands for bytes that the encoding does not know
+_STACK = re.compile(r"\\S([^;^#/]*)[\^#/]([^;]*);")
+_TOLERANCE_STACK = re.compile(r"\\S[^;^#/]*\^[^;]*;")
+
+
+def readable(name: str) -> str:
+    r"""Name with the escapes ``\U+00E7`` and ``\M+n....`` decoded and undecodable bytes shown as U+FFFD."""
+    if "\\" in name:
+        name = decode_mif_to_unicode(decode_dxf_unicode(name))
+    return _SURROGATE.sub("\ufffd", name)
+
+
+def doubly_encoded(name: str, encoding: str) -> bool:
+    """Tell whether a name looks like UTF-8 that was read in another encoding: ``"VÃ£os"``.
+
+    Parameters
+    ----------
+    name : str
+    encoding : str
+        Encoding of the file.
+
+    Notes
+    -----
+    True if the bytes of the name in that encoding, or in cp1252, are valid UTF-8 beyond ASCII. A name in another
+    language passes by chance only if every accented letter is followed by a fitting sign.
+    """
+    if name.isascii():
+        return False
+    for candidate in (encoding, "cp1252"):
+        data = _bytes(name, candidate)
+        try:
+            if data is not None and not data.isascii() and data.decode("utf-8") != name:
+                return True
+        except UnicodeDecodeError:
+            continue
+    return False
+
+
+def _bytes(name: str, encoding: str) -> bytes | None:
+    if encoding.replace("-", "").lower() == "utf8":
+        return None
+    data = bytearray()
+    for letter in name:
+        try:
+            data += letter.encode(encoding)
+        except (UnicodeEncodeError, LookupError):
+            if not 0x80 <= ord(letter) <= 0x9F:  # noqa: PLR2004 - undefined bytes of cp1252 come through as they are
+                return None
+            data.append(ord(letter))
+    return bytes(data)
+
+
+def override_text(text: str) -> str:
+    """Lettering of a dimension that replaces the measured length; ``""`` if it only repeats it."""
+    return "" if text.strip() in ("", "<>") or "<>" in text else plain_lettering(text)
+
+
+def plain_lettering(text: str) -> str:
+    """Lettering without formatting codes; stacked fractions as ``1/2``, stacked tolerances left out."""
+    fractions = _STACK.sub(r" \1/\2", _TOLERANCE_STACK.sub("", text))
+    return " ".join(str(fast_plain_mtext(fractions)).split())
+
+
+def rendered_text(entity: Any) -> str:  # noqa: ANN401 - ezdxf entities share no useful type
+    """Lettering of a TEXT or MTEXT."""
+    if entity.dxftype() == "MTEXT":
+        return plain_lettering(entity.text)
+    return " ".join(plain_text(entity.dxf.text).split())

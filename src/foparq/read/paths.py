@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""Which files of a delivery may be opened, and their hashes."""
+
+import hashlib
+import re
+import stat
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath, PureWindowsPath
+
+from foparq.errors import UnreadableError, UnsafeError
+
+_SCHEME = re.compile(r"^[A-Za-z][A-Za-z0-9+.\-]*:")
+_CHUNK = 1 << 20
+MOST_FILES = 10_000  #: files of a folder that are listed
+
+
+def inside(root: Path, named: str) -> Path:
+    """File that a manifest names, if it lies inside the delivery.
+
+    Parameters
+    ----------
+    root : Path
+        Folder of the delivery.
+    named : str
+        As the manifest writes it: relative, with ``/``.
+
+    Returns
+    -------
+    Path
+        Absolute, links resolved. It need not exist.
+
+    Raises
+    ------
+    UnsafeError
+        If the name is absolute, leads out of the folder (also through a link), or is an address instead of a path.
+    """
+    example = "desenhos/fachada.dxf"
+    if not named.strip() or any(ord(letter) < ord(" ") for letter in named):
+        raise UnsafeError("read.path-odd", file=named, example=example)
+    if _SCHEME.match(named) or named.startswith(("/vsi", "<")):
+        raise UnsafeError("read.path-address", file=named, example=example)
+    if PurePosixPath(named).is_absolute() or PureWindowsPath(named).anchor:
+        raise UnsafeError("read.path-absolute", file=named, example=example)
+    home = root.resolve()
+    try:
+        full = (home / named.replace("\\", "/")).resolve()
+    except (OSError, RuntimeError):
+        # A ring of links.
+        raise UnsafeError("read.path-outside", file=named, example=example) from None
+    if not full.is_relative_to(home):
+        raise UnsafeError("read.path-outside", file=named, example=example)
+    return full
+
+
+def fit_to_read(path: Path, limit: int) -> int:
+    """Size of a file in bytes, if it is one and not too large.
+
+    Raises
+    ------
+    UnreadableError
+        If it is a folder, a device or a pipe, or may not be read.
+    UnsafeError
+        If it is larger than ``limit`` bytes.
+    """
+    found = path.stat()
+    if not stat.S_ISREG(found.st_mode):
+        raise UnreadableError("read.not-a-file", file=path.name)
+    if found.st_size > limit:
+        raise UnsafeError("read.too-large", file=path.name, value=found.st_size, limit=limit)
+    return found.st_size
+
+
+def sha256_of(path: Path) -> str:
+    """SHA-256 of the bytes of a file, in hexadecimal."""
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def files_of(root: Path, leave: frozenset[str]) -> Iterator[Path]:
+    """Files below a folder in order of their names, without hidden ones and without following links to folders.
+
+    Parameters
+    ----------
+    root : Path
+        Folder.
+    leave : frozenset of str
+        Names of folders directly below that are passed over.
+
+    Yields
+    ------
+    Path
+        At most :data:`MOST_FILES` and one more, by which the caller sees that there are too many.
+    """
+    left = MOST_FILES + 1
+    waiting = [root]
+    while waiting:
+        folder = waiting.pop()
+        deeper: list[Path] = []
+        try:
+            entries = sorted(folder.iterdir())
+        except OSError:
+            continue
+        for entry in entries:
+            if entry.name.startswith(".") or (folder == root and entry.name in leave):
+                continue
+            if entry.is_dir() and not entry.is_symlink():
+                deeper.append(entry)
+                continue
+            yield entry
+            left -= 1
+            if left == 0:
+                return
+        waiting.extend(reversed(deeper))

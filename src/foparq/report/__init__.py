@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Writers: one kind of report each."""

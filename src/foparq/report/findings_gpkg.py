@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: MIT
+"""``findings.gpkg``: the findings as points, lines and areas in file coordinates, styled for QGIS."""
+
+import sqlite3
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyogrio.errors
+import pyogrio.raw
+import shapely
+from numpy.typing import NDArray
+
+from foparq.findings.hits import Geometries, Index
+from foparq.findings.table import Severity
+from foparq.report.audit_json import written_rows
+from foparq.report.places import places
+from foparq.report.record import AuditRecord
+from foparq.report.sentences import finding_sentence
+from foparq.report.templates import environment
+from foparq.report.words import Words, printable
+
+#: axes without a place on the Earth: GeoPackage reserves srs_id -1 for it (OGC 12-128, requirement 11)
+UNDEFINED = (
+    'ENGCRS["Undefined Cartesian SRS",EDATUM["unknown"],CS[Cartesian,2],'
+    'AXIS["(E)",east,ORDER[1],LENGTHUNIT["metre",1]],AXIS["(N)",north,ORDER[2],LENGTHUNIT["metre",1]]]'
+)
+
+#: severity, shape of its mark in QGIS and colour: red for faults, blue for notes
+_MARKS = (
+    (Severity.CRITICAL, "diamond", "128,0,0,255"),
+    (Severity.MAJOR, "triangle", "200,20,20,255"),
+    (Severity.MINOR, "circle", "220,80,20,255"),
+    (Severity.NOTE, "square", "30,90,160,255"),
+)
+
+_STYLES_TABLE = """
+CREATE TABLE layer_styles (
+  id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, f_table_catalog TEXT(256), f_table_schema TEXT(256),
+  f_table_name TEXT(256), f_geometry_column TEXT(256), styleName TEXT(30), styleQML TEXT, styleSLD TEXT,
+  useAsDefault BOOLEAN, description TEXT, owner TEXT(30), ui TEXT(30), update_time DATETIME
+)"""
+
+
+@dataclass(frozen=True, slots=True)
+class _Layer:
+    name: str
+    single: str
+    multi: str
+    symbol: str  #: QGIS symbol type
+    placement: int  #: of labels: around the point, along the line, over the area
+    geometry_type: int  #: QGIS geometry type
+
+
+_LAYERS = (
+    _Layer("flags_p", "Point", "MultiPoint", "marker", 0, 0),
+    _Layer("flags_l", "LineString", "MultiLineString", "line", 2, 1),
+    _Layer("flags_a", "Polygon", "MultiPolygon", "fill", 1, 2),
+)
+_DIMENSION_OF_TYPE = np.array([0, 1, 1, 2, 0, 1, 2], dtype=np.intp)  # by shapely type id, collections apart
+
+
+def write_findings_gpkg(record: AuditRecord, path: Path) -> None:
+    """Write ``findings.gpkg``.
+
+    Parameters
+    ----------
+    record : AuditRecord
+    path : Path
+        Replaced if it exists.
+
+    Notes
+    -----
+    One finding is one feature: a place of several parts is a multi-geometry, and of a mixed place the parts of highest
+    dimension are written. A finding without a place stands in ``flags_p`` without geometry. Two-dimensional places get
+    depth 0 where a layer also holds places with depth; the column ``z`` keeps the difference. At most
+    ``record.written`` findings of each rule are written.
+    """
+    path.unlink(missing_ok=True)
+    rows = written_rows(record)
+    shapes, dimension = _by_dimension(record.findings.where[rows])
+    columns = _columns(record, rows)
+    layers = []
+    for n, layer in enumerate(_LAYERS):
+        chosen = dimension == n
+        own = {name: column[chosen] for name, column in columns.items()}
+        layers.append((layer.name, *_of_one_type(shapes[chosen], layer), own))
+    try:
+        _write_layers(path, layers, _shared_crs(record))
+    except pyogrio.errors.CRSError:
+        # The file names a system that GDAL does not know.
+        path.unlink(missing_ok=True)
+        _write_layers(path, layers, UNDEFINED)
+    with closing(sqlite3.connect(path)) as database:
+        _add_styles(database, record, list(columns))
+        # The moment of the audit, not of writing: the same audit gives the same file.
+        database.execute("UPDATE gpkg_contents SET last_change = ?", (_moment(record),))
+        database.commit()
+        database.execute("VACUUM")
+
+
+def _columns(record: AuditRecord, rows: Index) -> dict[str, NDArray[Any]]:
+    words = Words(record.language)
+    findings = record.findings
+    spots = places(findings.where[rows])
+    sentences = np.empty(len(rows), dtype=object)
+    sentences[:] = [finding_sentence(words, findings, row) for row in rows.tolist()]
+    return {
+        "reason": sentences,
+        "featid": _texts(findings.item[rows]),
+        **{name: _texts(getattr(findings, name)[rows]) for name in _TEXT_COLUMNS},
+        "x": spots[:, 0],
+        "y": spots[:, 1],
+        "z": spots[:, 2],
+        "size": findings.size[rows].astype(float),
+        "unit": _texts(findings.unit[rows]),
+        "limit": findings.limit[rows].astype(float),
+        "message": sentences,
+        "waived": findings.waived[rows].astype(bool),
+    }
+
+
+_TEXT_COLUMNS = ("key", "rule", "name", "severity", "source", "layer", "item", "handle", "inserts", "other")
+
+
+def _texts(column: NDArray[np.object_]) -> NDArray[np.object_]:
+    texts = np.empty(len(column), dtype=object)
+    texts[:] = [printable(str(value)) for value in column]
+    return texts
+
+
+def _by_dimension(geometry: Geometries) -> tuple[Geometries, Index]:
+    """Geometries without empties and collections, and the dimension of each: 0, 1 or 2."""
+    shapes = geometry.copy()
+    shapes[shapely.is_empty(shapes)] = None
+    for n in np.flatnonzero(shapely.get_type_id(shapes) == _COLLECTION):
+        shapes[n] = _highest(shapes[n])
+    kind = shapely.get_type_id(shapes)
+    for n in np.flatnonzero(kind == _RING):
+        shapes[n] = shapely.linestrings(shapely.get_coordinates(shapes[n], include_z=bool(shapely.has_z(shapes[n]))))
+    return shapes, np.where(kind < 0, 0, _DIMENSION_OF_TYPE[kind])
+
+
+_RING, _COLLECTION = 2, 7
+
+
+def _highest(collection: shapely.Geometry) -> shapely.Geometry | None:
+    parts = shapely.get_parts([collection])
+    while np.any(shapely.get_type_id(parts) >= 4):  # noqa: PLR2004 - multi-geometries and collections
+        parts = shapely.get_parts(parts)
+    parts = parts[~shapely.is_empty(parts)]
+    if not len(parts):
+        return None
+    dimension = shapely.get_dimensions(parts)
+    best = parts[dimension == dimension.max()]
+    return (shapely.multipoints, shapely.multilinestrings, shapely.multipolygons)[dimension.max()](best)
+
+
+def _of_one_type(shapes: Geometries, layer: _Layer) -> tuple[Geometries, str]:
+    """Geometries all single or all multi, all with or all without depth, and the name of that type."""
+    present = shapes[shapely.get_type_id(shapes) >= 0]
+    deep = bool(shapely.has_z(present).any())
+    many = bool((shapely.get_type_id(present) >= 4).any())  # noqa: PLR2004 - multi-geometries
+    result = shapes.copy()
+    if many:
+        gather = {
+            "Point": shapely.multipoints,
+            "LineString": shapely.multilinestrings,
+            "Polygon": shapely.multipolygons,
+        }[layer.single]
+        for n, shape in enumerate(shapes):
+            if shape is not None and shapely.get_type_id(shape) < 4:  # noqa: PLR2004
+                result[n] = gather([shape])
+    if deep:
+        result = shapely.force_3d(result, z=0.0)
+    return result, (layer.multi if many else layer.single) + (" Z" if deep else "")
+
+
+def _write_layers(path: Path, layers: Sequence[tuple[str, Geometries, str, dict[str, NDArray[Any]]]], crs: str) -> None:
+    for name, geometry, geometry_type, columns in layers:
+        pyogrio.raw.write(
+            path,
+            shapely.to_wkb(geometry, output_dimension=3),
+            list(columns.values()),
+            list(columns),
+            layer=name,
+            driver="GPKG",
+            geometry_type=geometry_type,
+            crs=crs,
+            append=path.exists(),
+            # Later versions of the format are only partly understood by the QGIS of Debian 12.
+            dataset_options=None if path.exists() else {"VERSION": "1.3"},
+            layer_options={"FID": "fid", "GEOMETRY_NAME": "geom", "SPATIAL_INDEX": "YES"},
+        )
+
+
+def _shared_crs(record: AuditRecord) -> str:
+    """Coordinate reference system of all drawings, or undefined axes if they differ or have none."""
+    stated = {drawing.reading.crs for drawing in record.delivery.drawings}
+    return (next(iter(stated)) if len(stated) == 1 else "") or UNDEFINED
+
+
+def _moment(record: AuditRecord) -> str:
+    """Time of the audit as GeoPackage writes it."""
+    return (record.started[:19] or "1970-01-01T00:00:00") + ".000Z"
+
+
+def _add_styles(database: sqlite3.Connection, record: AuditRecord, columns: Sequence[str]) -> None:
+    words = Words(record.language)
+    template = environment("style").get_template("flags.qml.j2")
+    marks = [
+        {
+            "severity": severity.value,
+            "label": words(f"report.severity.{severity.value}"),
+            "shape": shape,
+            "colour": colour,
+        }
+        for severity, shape, colour in _MARKS
+    ]
+    named = [{"name": name, "alias": words(f"report.column.{name}")} for name in columns]
+    moment = _moment(record)
+    database.execute(_STYLES_TABLE)
+    database.execute(
+        "INSERT INTO gpkg_contents (table_name, data_type, identifier, last_change) VALUES (?, 'attributes', ?, ?)",
+        ("layer_styles", "layer_styles", moment),
+    )
+    for layer in _LAYERS:
+        style = template.render(
+            marks=marks,
+            kind=layer.symbol,
+            columns=named,
+            placement=layer.placement,
+            geometry_type=layer.geometry_type,
+        )
+        database.execute(
+            "INSERT INTO layer_styles (f_table_catalog, f_table_schema, f_table_name, f_geometry_column, styleName,"
+            " styleQML, styleSLD, useAsDefault, description, owner, update_time)"
+            " VALUES ('', '', ?, 'geom', 'foparq', ?, '', 1, ?, '', ?)",
+            (layer.name, style, words("report.gpkg.style"), moment),
+        )

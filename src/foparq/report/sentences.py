@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: MIT
+"""Sentences that every report shares: findings, reasons, outcomes and files in the language of the reader."""
+
+from collections.abc import Iterable
+from functools import cache
+
+from foparq.check.catalogue import cards
+from foparq.evaluate.quality import Reason
+from foparq.findings.outcome import Outcome
+from foparq.findings.table import Findings
+from foparq.model.delivery import Source
+from foparq.model.drawing import Skipped
+from foparq.report.words import Words, printable
+
+_MEASURE = "measure-"  #: a count that has an ISO 19157 measure of its own
+
+
+def finding_sentence(words: Words, findings: Findings, n: int) -> str:
+    """What was found, in one sentence.
+
+    Parameters
+    ----------
+    words : Words
+    findings : Findings
+    n : int
+        Row.
+
+    Returns
+    -------
+    str
+        ``rules.CODE.finding`` with ``size``, ``limit`` (quantities), ``layer``, ``item``, ``handle``, ``other``,
+        ``inserts`` and ``source`` filled in.
+
+    Raises
+    ------
+    KeyError
+        If the rule has no sentence in this language.
+    """
+    unit = str(findings.unit[n])
+    return words(
+        f"rules.{findings.rule[n]}.finding",
+        size=(float(findings.size[n]), unit),
+        limit=(float(findings.limit[n]), unit),
+        layer=findings.layer[n],
+        item=findings.item[n],
+        handle=findings.handle[n],
+        other=findings.other[n],
+        inserts=findings.inserts[n],
+        source=findings.source[n],
+    )
+
+
+def rule_meaning(words: Words, code: str) -> str:
+    """What a rule finds, in one paragraph: the first of its manual.
+
+    The manual is the docstring of the rule; catalogues of other languages translate it as ``rules.CODE.manual``.
+    """
+    manual = words.find(f"rules.{code}.manual") or _manuals()[code]
+    return " ".join(manual.strip().split("\n\n", 1)[0].split())
+
+
+@cache
+def _manuals() -> dict[str, str]:
+    return {card.code: card.manual for card in cards()}
+
+
+def reason_sentence(words: Words, reason: Reason) -> str:
+    """Sentence of a reason of the evaluation: ``evaluate.ID`` with its fields."""
+    return words(f"evaluate.{reason.message}", **dict(reason.fields))
+
+
+def source_sentence(words: Words, source: Source) -> str:
+    """State of a delivered file in one sentence; for a refused file the reader's error."""
+    if source.error:
+        return words(f"errors.{source.error}", **dict(source.fields))
+    return words(f"report.source.{source.status.value}", file=source.path, items=words.count(source.items))
+
+
+def skipped_sentence(words: Words, skipped: Skipped) -> str:
+    """Why things of a file reach no check: ``report.skipped.REASON``."""
+    return words(f"report.skipped.{skipped.reason}", kind=skipped.kind, layer=skipped.layer)
+
+
+def outcome_because(words: Words, outcome: Outcome) -> str:
+    """Why a rule did not run, ``report.because.ID``; empty if it ran."""
+    return words(f"report.because.{outcome.because}", rule=outcome.name) if outcome.because else ""
+
+
+def outcome_scope(words: Words, outcome: Outcome) -> str:
+    """What a rule was run on, safe to show: ``"fachada.dxf: PAREDE*"``, ``"fachada.dxf: all layers"``."""
+    scope = outcome.scope or outcome.source
+    if scope == f"{outcome.source}: *":
+        scope = f"{outcome.source}: {words('report.scope.all-layers')}"
+    return printable(scope)
+
+
+def parameter_name(words: Words, name: str) -> str:
+    """Name of a statistic or tolerance: the catalogue's, else the identifier that the profile uses."""
+    if name.startswith(_MEASURE):
+        return words("report.parameter.measure", id=name.removeprefix(_MEASURE))
+    return words.find(f"report.parameter.{name}") or printable(name)
+
+
+def parameters_sentence(words: Words, parameters: Iterable[tuple[str, float, str]]) -> str:
+    """Names and values in one line: ``"coincide 0,1 mm; reach 10,0 mm"``.
+
+    Parameters
+    ----------
+    words : Words
+    parameters : iterable of (name, value, SI unit)
+    """
+    return "; ".join(f"{parameter_name(words, name)} {words.quantity(value, unit)}" for name, value, unit in parameters)

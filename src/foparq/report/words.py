@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: MIT
+"""Sentences, numbers and dates in the language of the user.
+
+Texts live in gettext catalogues under ``reports/templates/locale``, one file a domain and language. A message is named
+``"domain.id"``: ``words("rules.TOP021.finding", size="4,0 mm")``. Code never holds a sentence.
+"""
+
+import gettext
+import os
+from collections.abc import Mapping
+from functools import cache
+
+from foparq.errors import FoparqError
+from foparq.resources import shipped
+
+LANGUAGES = ("pt-BR", "en")
+DOMAINS = ("cli", "errors", "evaluate", "report", "rules")
+
+#: how a quantity is written for people, by SI unit: below which value, unit, factor from SI, decimals
+_LADDERS = {
+    "m": ((1e-4, "µm", 1e6, 1), (1.0, "mm", 1e3, 1), (float("inf"), "m", 1.0, 3)),
+    "m2": ((1e-2, "mm²", 1e6, 1), (float("inf"), "m²", 1.0, 4)),
+    "1": ((float("inf"), "%", 1e2, 2),),
+    "items": ((float("inf"), "", 1.0, 0),),
+}
+
+
+class Words:
+    """Texts of one language.
+
+    Parameters
+    ----------
+    language : str
+        ``"pt-BR"`` or ``"en"``.
+    """
+
+    def __init__(self, language: str) -> None:
+        if language not in LANGUAGES:
+            raise FoparqError("usage.language", value=language, example="pt-BR")
+        self.language = language
+        self._catalogues: dict[str, gettext.NullTranslations] = {}
+
+    def __call__(self, message: str, /, **fields: object) -> str:
+        """Sentence of a message id, with its fields filled in.
+
+        Parameters
+        ----------
+        message : str
+            ``"domain.id"``.
+        **fields : object
+            Numbers are written in the manner of the language; a pair (value, unit) is a quantity.
+
+        Raises
+        ------
+        KeyError
+            If the catalogue has no such message or the message names a field that is not given.
+        """
+        text = self.find(message)
+        if text is None:
+            raise KeyError(f"no message {message!r} in {self.language}")
+        return text.format_map(_Filled(self, fields)) if "{" in text else text
+
+    def find(self, message: str) -> str | None:
+        """Text of a message id as it stands in the catalogue, or ``None``."""
+        domain, _, key = message.partition(".")
+        text = self._catalogue(domain).gettext(key)
+        return None if text == key else text
+
+    def error(self, error: FoparqError) -> str:
+        """Sentence of an error."""
+        return self(f"errors.{error.message}", **error.fields)
+
+    def number(self, value: float, decimals: int = 3) -> str:
+        """Number with a decimal comma or point: ``"0,010"``."""
+        if value != value:  # noqa: PLR0124 - not a number
+            return "–"
+        text = f"{value:,.{decimals}f}"
+        if self.language == "pt-BR":
+            text = text.translate(str.maketrans(",.", ".,"))
+        return text
+
+    def count(self, value: float) -> str:
+        """Whole number with separators: ``"1.000"``."""
+        return self.number(value, 0)
+
+    def quantity(self, value: float, unit: str) -> str:
+        """Quantity as people write it: ``"4,0 mm"``, ``"0,30 m²"``, ``"6,6 %"``."""
+        ladder = _LADDERS.get(unit, ((float("inf"), unit, 1.0, 3),))
+        name, factor, decimals = next((row[1:] for row in ladder if abs(value) < row[0]), ladder[-1][1:])
+        return f"{self.number(value * factor, decimals)} {name}".rstrip()
+
+    def _catalogue(self, domain: str) -> gettext.NullTranslations:
+        if domain not in self._catalogues:
+            self._catalogues[domain] = _load(domain, self.language.replace("-", "_"))
+        return self._catalogues[domain]
+
+
+class _Filled(dict[str, str]):
+    """Fields of a sentence, written in the manner of the language."""
+
+    def __init__(self, words: Words, fields: Mapping[str, object]) -> None:
+        super().__init__({name: _write(words, value) for name, value in fields.items()})
+
+
+def _write(words: Words, value: object) -> str:
+    if isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], int | float) and isinstance(value[1], str):  # noqa: PLR2004
+        return words.quantity(float(value[0]), value[1])
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        return words.number(value)
+    if isinstance(value, list | tuple | set | frozenset):
+        return ", ".join(_write(words, part) for part in value)
+    return printable(str(value))
+
+
+def printable(text: str) -> str:
+    """Text of a delivery made safe to show: control and bidirectional characters as escapes."""
+    return "".join(c if c.isprintable() and c not in _BIDI else f"\\u{ord(c):04x}" for c in text)
+
+
+_BIDI = frozenset("\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
+
+
+def language_of(asked: str | None = None) -> str:
+    """Language to speak: as asked, else the locale's, else English.
+
+    Parameters
+    ----------
+    asked : str, optional
+        ``--lang`` or the manifest's ``language``.
+    """
+    candidates = [asked or "", *(os.environ.get(name, "") for name in ("LC_ALL", "LC_MESSAGES", "LANGUAGE", "LANG"))]
+    for candidate in candidates:
+        start = candidate.replace("_", "-").casefold()
+        if start.startswith("pt"):
+            return "pt-BR"
+        if start.startswith(("en", "c.", "posix")) or start == "c":
+            return "en"
+    return "en"
+
+
+@cache
+def _load(domain: str, language: str) -> gettext.NullTranslations:
+    return gettext.translation(domain, shipped("templates") / "locale", languages=[language])

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: MIT
+"""Quantities: a number, its unit, and whether it is meant at drawing scale.
+
+``"10 mm"`` is a length on the object. ``"0.2 mm @ scale"`` is a length on the sheet: at 1:50 it is 10 mm on the
+object. A bare number is never a quantity.
+"""
+
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Annotated
+
+from foparq.errors import QuantityError
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """Unit of a rule's tolerance, read from its annotation.
+
+    Parameters
+    ----------
+    symbol : str
+        The SI symbol in which the rule receives the number: ``"m"``, ``"m2"``, ``"rad"``, ``"1"``.
+    """
+
+    symbol: str
+
+
+Metres = Annotated[float, Unit("m")]
+SquareMetres = Annotated[float, Unit("m2")]
+Ratio = Annotated[float, Unit("1")]
+Count = Annotated[float, Unit("items")]
+
+#: metres in one unit of length, exact where the definition is
+LENGTHS: dict[str, float] = {
+    "km": 1000.0,
+    "m": 1.0,
+    "dm": 0.1,
+    "cm": 0.01,
+    "mm": 0.001,
+    "um": 1e-6,
+    "in": 0.0254,
+    "ft": 0.3048,
+    "yd": 0.9144,
+}
+_AREAS = {f"{name}2": factor**2 for name, factor in LENGTHS.items()}
+_SPELLED = {
+    "μm": "um",
+    "µm": "um",
+    "m²": "m2",
+    "mm²": "mm2",
+    "cm²": "cm2",
+    '"': "in",
+    "'": "ft",
+    "inch": "in",
+    "metre": "m",
+}
+_RATIOS = {"%": 0.01, "1": 1.0}
+_COUNTS = {"items": 1.0}
+_SYMBOLS = {"m": LENGTHS, "m2": _AREAS, "1": _RATIOS, "items": _COUNTS}
+_QUANTITY = re.compile(
+    r"^\s*(?P<number>[+-]?[0-9]+(?:[.,][0-9]+)?(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>[^\s@\d]+[²2]?)\s*(?P<scale>@\s*scale)?\s*$"
+)
+_SCALE = re.compile(r"^\s*1\s*[:/]\s*(?P<denominator>[0-9]+(?:[.,][0-9]+)?)\s*$")
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A number with its unit, as a person wrote it.
+
+    Parameters
+    ----------
+    number : float
+        The number, in ``unit``.
+    unit : str
+        Unit as understood: ``"mm"``, ``"m2"``, ``"%"``.
+    at_scale : bool
+        True if the length is meant on the sheet.
+    """
+
+    number: float
+    unit: str
+    at_scale: bool = False
+
+    @property
+    def symbol(self) -> str:
+        """SI symbol of what is measured: ``"m"``, ``"m2"``, ``"1"`` or ``"items"``."""
+        return next(symbol for symbol, known in _SYMBOLS.items() if self.unit in known)
+
+    def si(self, scale: float | None = None) -> float:
+        """Number in SI units on the object.
+
+        Parameters
+        ----------
+        scale : float, optional
+            Denominator k of the drawing scale 1:k.
+
+        Returns
+        -------
+        float
+            Metres, square metres, ratio or count.
+
+        Raises
+        ------
+        QuantityError
+            If the quantity is meant at scale and no scale is given.
+        """
+        factor = _SYMBOLS[self.symbol][self.unit]
+        if not self.at_scale:
+            return _product(self.number, factor)
+        if scale is None:
+            raise QuantityError("quantity.no-scale", value=str(self), example="1:50")
+        return _product(self.number, factor, scale if self.symbol == "m" else scale**2)
+
+    def __str__(self) -> str:
+        return f"{self.number:g} {self.unit}" + (" @ scale" if self.at_scale else "")
+
+
+def parse_quantity(text: object, symbol: str) -> Quantity:
+    """Quantity from what a person wrote.
+
+    Parameters
+    ----------
+    text : object
+        A string such as ``"0.2 mm @ scale"``, ``"5 cm"``, ``"10 %"``. A decimal comma is understood.
+    symbol : str
+        What must be measured: ``"m"``, ``"m2"``, ``"1"`` or ``"items"``.
+
+    Returns
+    -------
+    Quantity
+
+    Raises
+    ------
+    QuantityError
+        If it is not a string, has no unit, or has a unit of something else.
+
+    Examples
+    --------
+    >>> parse_quantity("0.2 mm @ scale", "m").si(50)
+    0.01
+    """
+    example = {"m": "0.2 mm @ scale", "m2": "1 m2", "1": "10 %", "items": "5 items"}[symbol]
+    if not isinstance(text, str):
+        raise QuantityError("quantity.bare-number", value=text, example=example)
+    found = _QUANTITY.match(text)
+    if found is None:
+        raise QuantityError("quantity.not-understood", value=text, example=example)
+    unit = _SPELLED.get(found["unit"], found["unit"])
+    if unit not in _SYMBOLS[symbol]:
+        raise QuantityError(
+            "quantity.wrong-unit", value=text, unit=unit, known=", ".join(_SYMBOLS[symbol]), example=example
+        )
+    return Quantity(float(found["number"].replace(",", ".")), unit, found["scale"] is not None)
+
+
+def parse_any_quantity(text: object) -> Quantity:
+    """Quantity of whatever kind its unit tells; see :func:`parse_quantity`."""
+    kind = "m"
+    if isinstance(text, str) and (found := _QUANTITY.match(text)):
+        unit = _SPELLED.get(found["unit"], found["unit"])
+        kind = next((symbol for symbol, known in _SYMBOLS.items() if unit in known), "m")
+    return parse_quantity(text, kind)
+
+
+def parse_scale(text: object) -> float:
+    """Denominator of a drawing scale written ``"1:50"``.
+
+    Raises
+    ------
+    QuantityError
+        If it is not one to a positive number.
+
+    Examples
+    --------
+    >>> parse_scale("1:50")
+    50.0
+    """
+    found = _SCALE.match(text) if isinstance(text, str) else None
+    denominator = float(found["denominator"].replace(",", ".")) if found else 0.0
+    if denominator <= 0:
+        raise QuantityError("quantity.not-a-scale", value=text, example="1:50")
+    return denominator
+
+
+def parse_length_unit(text: str) -> float:
+    """Metres in one drawing unit: ``"mm"``, ``"in"``, or a stated length such as ``"0.641 m"``.
+
+    Raises
+    ------
+    QuantityError
+        If the unit is not known.
+
+    Examples
+    --------
+    >>> parse_length_unit("in")
+    0.0254
+    """
+    name = _SPELLED.get(text.strip(), text.strip())
+    if name in LENGTHS:
+        return LENGTHS[name]
+    try:
+        length = parse_quantity(text, "m")
+    except QuantityError:
+        raise QuantityError("quantity.unknown-unit", value=text, known=", ".join(LENGTHS), example="m") from None
+    if length.at_scale or length.number <= 0:
+        raise QuantityError("quantity.unknown-unit", value=text, known=", ".join(LENGTHS), example="m")
+    return length.si()
+
+
+def _product(*factors: float) -> float:
+    # Decimal numbers are multiplied as written: 0.3 mm at 1:50 is 0.015 m, not 0.0149999...
+    result = Fraction(1)
+    for factor in factors:
+        result *= Fraction(repr(float(factor)))
+    return float(result)

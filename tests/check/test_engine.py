@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: MIT
+"""The engine: what is set aside, what is not run, what a crash does, and what names a finding."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+
+from foparq.check import run as engine
+from foparq.check.delivered_features import count_features
+from foparq.check.registry import all_rules
+from foparq.check.run import Checked, check_drawing
+from foparq.findings.outcome import Outcome, Status
+from foparq.model.drawing import Drawing, DrawingUnit, Reading, UnitOrigin
+from foparq.model.items import Items, Role
+from foparq.model.plane import Plane, plane_of
+from foparq.profile.adjust import choose
+from foparq.profile.load import load_profile
+
+PROFILE = load_profile("et-doc-foparq-a")
+METRES = DrawingUnit(metres=1.0, name="m", origin=UnitOrigin.STATED)
+
+
+def drawing(
+    shapes: Sequence[str | None],
+    *,
+    layers: Sequence[str] | None = None,
+    role: str = Role.LINE,
+    unit: DrawingUnit = METRES,
+    plane: str = "xy",
+    visible: Sequence[bool] | None = None,
+    inserts: Sequence[str] | None = None,
+    **said: object,
+) -> Drawing:
+    n = len(shapes)
+    geometry = np.empty(n, dtype=object)
+    geometry[:] = [None if shape is None else shapely.from_wkt(shape) for shape in shapes]
+    names = np.array([f"{row:X}" for row in range(16, 16 + n)], dtype=object)
+    roles = [Role.AREA if shape and shape.startswith("POLYGON") else role for shape in shapes]
+    items = Items(
+        geometry=geometry, layer=np.array(layers or ["0"] * n, dtype=object), kind=np.full(n, "LINE", dtype=object),
+        role=np.array(roles, dtype=object), item=names, handle=names.copy(),
+        inserts=np.array(inserts or [""] * n, dtype=object), colour=np.full(n, 256, dtype=np.int32),
+        closed=np.zeros(n, dtype=bool), visible=np.array(visible or [True] * n), paper=np.zeros(n, dtype=bool),
+    )  # fmt: skip
+    frame = plane_of(plane, geometry)
+    return Drawing(path="a.dxf", items=items, reading=Reading(), unit=unit, plane=frame, **said)  # type: ignore[arg-type]
+
+
+def check(thing: Drawing, *rules: str, scale: float = 50) -> Checked:
+    return check_drawing(thing, choose(PROFILE, rules) if rules else PROFILE, scale)
+
+
+def outcome(checked: Checked, name: str) -> Outcome:
+    return next(found for found in checked.outcomes if found.name == name)
+
+
+T_JUNCTION_4MM_SHORT = ["LINESTRING (0 0, 1 0)", "LINESTRING (0.5 -0.004, 0.5 -1)", "LINESTRING (0 0, 0.5 -1, 1 0)"]
+
+
+def test_a_fault_has_place_size_item_layer_limit_and_unit() -> None:
+    table = check(drawing(T_JUNCTION_4MM_SHORT), "undershoot").findings
+    assert len(table) == 1
+    assert table.item[0] == "11"
+    assert table.other[0] == "10"
+    assert table.size[0] == pytest.approx(0.004)
+    assert (table.unit[0], table.limit[0], table.layer[0]) == ("m", 0.0005, "0")
+    assert shapely.get_coordinates(table.where, include_z=True)[0] == pytest.approx([0.5, -0.004, 0])
+
+
+def test_every_rate_has_its_denominator() -> None:
+    found = outcome(check(drawing(T_JUNCTION_4MM_SHORT), "undershoot"), "undershoot")
+    assert (found.status, found.checked, found.found, found.faulty.tolist()) == (Status.FAULTY, 3, 1, [1])
+    assert {name: value for name, value, _ in found.parameters} == {"coincide": 0.0005, "reach": 0.01}
+
+
+def test_units_of_the_file_come_back_in_the_place() -> None:
+    in_mm = [
+        shape.replace("0.5", "500").replace("-0.004", "-4").replace(" -1", " -1000").replace("1 0", "1000 0")
+        for shape in T_JUNCTION_4MM_SHORT
+    ]
+    thing = drawing(in_mm, unit=DrawingUnit(metres=0.001, name="mm", origin=UnitOrigin.STATED))
+    table = check(thing, "undershoot").findings
+    assert table.size[0] == pytest.approx(0.004)
+    assert shapely.get_coordinates(table.where)[0] == pytest.approx([500, -4])
+
+
+@pytest.mark.parametrize(("plane", "lift"), [("xz", lambda x, y: (x, 7.0, y)), ("yz", lambda x, y: (7.0, x, y))])
+def test_a_facade_is_checked_in_its_plane_and_found_in_space(plane: str, lift) -> None:  # noqa: ANN001
+    shapes = []
+    for shape in T_JUNCTION_4MM_SHORT:
+        flat = shapely.get_coordinates(shapely.from_wkt(shape))
+        shapes.append(shapely.LineString([lift(x, y) for x, y in flat]).wkt)
+    table = check(drawing(shapes, plane=plane), "undershoot").findings
+    assert len(table) == 1
+    assert shapely.get_coordinates(table.where, include_z=True)[0] == pytest.approx(lift(0.5, -0.004))
+
+
+def test_an_item_that_failed_a_required_rule_is_set_aside_and_counted() -> None:
+    twice = ["LINESTRING (0 0, 1 0)", "LINESTRING (0 0, 1 0)", "LINESTRING (0 0, 0 1)"]
+    checked = check(drawing(twice), "duplicate", "free-end")
+    free = outcome(checked, "free-end")
+    assert (free.checked, free.skipped) == (2, 1)
+    assert free.found == 2, "the copy hides no free end: (1 0) and (0 1) are free"
+
+
+def test_what_cannot_be_a_line_is_counted_as_skipped_and_found_invalid() -> None:
+    broken = [None, "LINESTRING EMPTY", "LINESTRING (0 0, 1 0)"]
+    checked = check(drawing(broken), "invalid-geometry", "free-end")
+    assert outcome(checked, "invalid-geometry").faulty.tolist() == [0, 1]
+    assert (outcome(checked, "free-end").checked, outcome(checked, "free-end").skipped) == (1, 2)
+
+
+def test_without_a_unit_no_rule_with_a_length_runs() -> None:
+    checked = check(drawing(T_JUNCTION_4MM_SHORT, unit=DrawingUnit(metres=None, name="", origin=UnitOrigin.UNKNOWN)))
+    for found in checked.outcomes:
+        metric = any(unit in {"m", "m2"} for _, unit in all_rules()[found.rule].tolerances)
+        assert (found.because == "unit-unknown") == metric
+        if metric:
+            assert (found.status, found.checked) == (Status.NOT_RUN, 0)
+
+
+def test_a_doubted_header_stops_metric_rules_until_the_user_states_the_unit() -> None:
+    header = DrawingUnit(
+        metres=1.0, name="m", origin=UnitOrigin.HEADER, header="EPSG:3857", header_metres=1.0, stretch=1.56
+    )
+    thing = drawing(T_JUNCTION_4MM_SHORT, unit=header)
+    doubted = check(thing)
+    assert outcome(doubted, "unit-contradiction").status is Status.FAULTY
+    assert outcome(doubted, "undershoot").because == "unit-doubtful"
+    stated = check(replace(thing, unit=replace(header, origin=UnitOrigin.STATED)))
+    assert outcome(stated, "undershoot").status is Status.FAULTY
+
+
+def test_a_crash_is_ours_and_ends_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    rules = dict(all_rules())
+    code = next(code for code, rule in rules.items() if rule.name == "undershoot")
+
+    def broken(_lines: object, **_tolerances: float) -> None:
+        raise ZeroDivisionError("planted")
+
+    rules[code] = replace(rules[code], check=broken)  # type: ignore[arg-type]
+    monkeypatch.setattr(engine, "all_rules", lambda: rules)
+    checked = check(drawing(T_JUNCTION_4MM_SHORT), "undershoot", "overshoot")
+    assert outcome(checked, "undershoot").status is Status.CRASHED
+    assert outcome(checked, "overshoot").status is Status.CLEAN
+    assert "planted" in checked.log[0]
+    assert len(checked.findings) == 0
+
+
+def test_hidden_items_are_reported_and_not_checked() -> None:
+    thing = drawing(T_JUNCTION_4MM_SHORT, layers=["0", "OFF", "0"], visible=[True, False, True])
+    checked = check(thing)
+    assert outcome(checked, "hidden-entities").found == 1
+    assert outcome(checked, "undershoot").checked == 2
+    assert outcome(checked, "undershoot").status is Status.CLEAN
+
+
+def test_layers_apart_are_coverages_of_their_own() -> None:
+    squares = ["POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))", "POLYGON ((0.5 0, 2 0, 2 1, 0.5 1, 0.5 0))"]
+    together = check(drawing(squares), "area-overlap")
+    apart = check(drawing(squares, layers=["A*[1]", "B"]), "area-overlap")
+    assert together.findings.size.tolist() == pytest.approx([0.5])
+    assert len(apart.findings) == 0
+    assert [found.checked for found in apart.outcomes] == [1, 1]
+
+
+def test_closed_lines_bound_areas_only_where_the_manifest_says_so() -> None:
+    rings = ["LINESTRING (0 0, 1 0, 1 1, 0 1, 0 0)", "LINESTRING (0.5 0, 2 0, 2 1, 0.5 1, 0.5 0)"]
+    assert outcome(check(drawing(rings), "area-overlap"), "area-overlap").because == "nothing-to-check"
+    assert check(drawing(rings, areas=("0",)), "area-overlap").findings.size.tolist() == pytest.approx([0.5])
+
+
+def test_findings_do_not_depend_on_the_order_of_the_file() -> None:
+    shapes = [
+        *T_JUNCTION_4MM_SHORT,
+        "LINESTRING (0 0, 1 0)",
+        "LINESTRING (3 3, 4 4, 4 3, 3 4)",
+        "LINESTRING (0.2 0.003, 0.2 1)",
+    ]
+    thing = drawing(shapes)
+    order = np.random.default_rng(7).permutation(len(shapes))
+    shuffled = replace(thing, items=thing.items.take(order))
+    first, second = check(thing).findings, check(shuffled).findings
+    assert first.key.tolist() == second.key.tolist()
+    assert first.item.tolist() == second.item.tolist()
+
+
+def test_input_columns_are_read_only() -> None:
+    with pytest.raises(ValueError, match="read-only"):
+        drawing(T_JUNCTION_4MM_SHORT).items.geometry[0] = None
+
+
+def test_features_are_clusters_and_inserts() -> None:
+    shapes = [
+        "LINESTRING (0 0, 1 0)", "LINESTRING (1.004 0, 1.004 1)",  # 4 mm apart: one window, with an undershoot
+        "LINESTRING (5 0, 6 0)",  # another window
+        "LINESTRING (8 0, 9 0)", "LINESTRING (8 5, 9 5)",  # one block insert
+        "LINESTRING (20 0, 21 0)",  # on a layer of no class
+    ]  # fmt: skip
+    thing = drawing(
+        shapes,
+        layers=["JANELA", "JANELA", "JANELA", "JANELA", "JANELA", "PAREDE"],
+        inserts=["", "", "", "A1", "A1", ""],
+        facade="N",
+        classes={"janela*": "window", "PORTA": "door"},
+    )
+    counts = count_features([thing], gap=0.01)
+    assert counts is not None
+    assert list(zip(counts.feature_class, counts.facade, counts.count, strict=True)) == [
+        ("door", "N", 0),
+        ("window", "N", 3),
+    ]
+    assert counts.unmapped == (("PAREDE", 1),)
+
+
+def test_without_classes_nothing_is_counted() -> None:
+    assert count_features([drawing(T_JUNCTION_4MM_SHORT)], gap=0.01) is None
+
+
+@pytest.mark.parametrize("name", ["xy", "xz", "yz", "fit"])
+def test_a_plane_takes_coordinates_there_and_back(name: str) -> None:
+    points = np.random.default_rng(3).normal(size=(20, 3)) * [10, 5, 0.1] + [7.4e6, 4.4e5, 700]
+    plane = plane_of(name, np.array([shapely.LineString(points)], dtype=object))
+    assert plane.lift(plane.project(points, 0.001), 0.001) == pytest.approx(points, abs=1e-6)
+    assert np.linalg.det(plane.frame) == pytest.approx(1)
+
+
+def test_a_fitted_plane_of_a_facade_stands_upright() -> None:
+    along = np.array([np.cos(0.3), np.sin(0.3), 0.0])
+    corner = np.array([100.0, 50.0, 10.0])
+    points = np.array([corner + u * along + np.array([0, 0, v]) for u in range(5) for v in range(3)])
+    plane = plane_of("fit", np.array([shapely.LineString(points)], dtype=object))
+    assert plane.up == pytest.approx((0, 0, 1))
+    assert plane.right == pytest.approx(tuple(along))
+    assert plane.project(points, 1.0)[:, 2] == pytest.approx(np.zeros(15), abs=1e-9)
+
+
+def test_depth_of_a_facade_grows_towards_the_reader() -> None:
+    plane = Plane("xz", (0, 0, 0), (1, 0, 0), (0, 0, 1))
+    assert plane.project(np.array([[0.0, -2.0, 0.0]]), 1.0)[0, 2] == 2

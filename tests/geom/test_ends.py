@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT
+"""Ends of lines against a slow independent reading of the definitions, and against drawings that hurt."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from tests.geom.oracle import classify_all
+
+from foparq.geom.ends import NOBODY, EndKind, Ends, classify_ends, leaving
+from foparq.geom.polylines import Polylines
+
+# No two places of a millimetre grid are exactly this far apart.
+COINCIDE, REACH = 0.0004, 0.0103
+
+
+def polylines(lines: list[NDArray[np.float64]]) -> Polylines:
+    return Polylines.of(
+        shapely.linestrings(np.concatenate(lines), indices=np.repeat(np.arange(len(lines)), [len(x) for x in lines]))
+    )
+
+
+def assert_same(ends: Ends, lines: list[NDArray[np.float64]]) -> None:
+    expected = classify_all(lines, coincide=COINCIDE, reach=REACH)
+    assert len(ends.line) == len(expected)
+    for n, want in enumerate(expected):
+        assert (ends.line[n], not ends.forward[n]) == (want.line, want.last)
+        assert EndKind(ends.kind[n]).name.lower() == want.kind, want
+        assert ends.size[n] == pytest.approx(want.size, abs=1e-7), want
+        assert ends.other[n] == (min(want.others) if want.others else NOBODY)
+
+
+def walks(dimensions: int) -> st.SearchStrategy[list[NDArray[np.float64]]]:
+    place = st.tuples(st.integers(0, 40), st.integers(0, 40), *[st.integers(0, 2)] * (dimensions - 2))
+    walk = st.lists(place, min_size=2, max_size=7).filter(lambda way: all(a[:2] != b[:2] for a, b in pairwise(way)))
+    return st.lists(walk.map(lambda way: np.array(way, dtype=float) / 1000), min_size=1, max_size=9)
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(walks(2))
+def test_ends_in_the_plane_are_what_the_definitions_say(lines: list[NDArray[np.float64]]) -> None:
+    assert_same(classify_ends(polylines(lines), coincide=COINCIDE, reach=REACH), lines)
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(walks(3))
+def test_ends_with_depth_are_what_the_definitions_say(lines: list[NDArray[np.float64]]) -> None:
+    assert_same(classify_ends(polylines(lines), coincide=COINCIDE, reach=REACH), lines)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_larger_drawing_is_what_the_definitions_say(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    start = rng.uniform(0, 0.3, (60, 1, 2))
+    lines = list(np.concatenate([start, start + np.cumsum(rng.normal(0, 0.02, (60, 9, 2)), axis=1)], axis=1))
+    assert_same(classify_ends(polylines(lines), coincide=COINCIDE, reach=REACH), lines)
+
+
+@pytest.mark.parametrize(
+    "lines", [[], ["LINESTRING (1 1, 1 1)"], ["LINESTRING (0 0, 1 0, 1 1, 0 0)"]], ids=["none", "a point", "a ring"]
+)
+def test_without_ends_there_is_nothing_to_say(lines: list[str]) -> None:
+    ends = classify_ends(
+        Polylines.of(np.array([shapely.from_wkt(x) for x in lines], dtype=object)), coincide=1e-4, reach=1e-2
+    )
+    assert not len(ends.line)
+
+
+def test_line_straight_into_the_depth_has_two_ends() -> None:
+    table = Polylines.of(
+        np.array([shapely.from_wkt("LINESTRING Z (0 0 0, 0 0 1)"), shapely.from_wkt("LINESTRING Z (-1 0 1, 1 0 1)")])
+    )
+    kinds = classify_ends(table, coincide=1e-4, reach=1e-2).kind[:2]
+    assert kinds.tolist() == [EndKind.FREE, EndKind.CONNECTED]
+
+
+def test_crowd_of_identical_lines_is_connected() -> None:
+    ends = classify_ends(
+        Polylines.of(np.full(100_000, shapely.LineString([(0, 0), (1, 1)]))), coincide=1e-4, reach=1e-2
+    )
+    assert np.all(ends.kind == EndKind.CONNECTED)
+
+
+def test_star_of_lines_is_connected_in_the_middle_and_free_outside() -> None:
+    angle = np.arange(20_000) * (2 * np.pi / 20_000)
+    rays = np.stack([np.zeros((20_000, 2)), 1000 * np.column_stack([np.cos(angle), np.sin(angle)])], axis=1)
+    ends = classify_ends(Polylines.of(shapely.linestrings(rays)), coincide=1e-4, reach=1e-2)
+    assert np.all(ends.kind[ends.forward] == EndKind.CONNECTED)
+    assert np.all(ends.kind[~ends.forward] == EndKind.FREE)
+
+
+def test_askew_hatch_of_parallel_lines_is_short_everywhere() -> None:
+    y = np.arange(20_000) * 0.001
+    hatch = np.stack([np.column_stack([0 * y, y]), np.column_stack([0 * y + 1, y])], axis=1)
+    turn = np.array([[np.cos(0.5), np.sin(0.5)], [-np.sin(0.5), np.cos(0.5)]])
+    ends = classify_ends(Polylines.of(shapely.linestrings(hatch @ turn)), coincide=1e-4, reach=1e-2)
+    assert np.all(ends.kind == EndKind.UNDERSHOOT)
+    assert ends.size == pytest.approx(np.full(40_000, 0.001))
+
+
+def test_leaving_is_the_first_vertex_outside() -> None:
+    table = Polylines.of(np.array([shapely.from_wkt("LINESTRING (0 0, 1 0, 2 0, 1 0, 3 0)")]))
+    ahead = leaving(table, np.array([0, 0, 4]), np.array([True, True, False]), radius=1.5)
+    assert ahead.tolist() == [2, 2, 3]
+    assert leaving(table, np.array([0, 4]), np.array([True, False]), radius=9).tolist() == [5, -1]

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: MIT
+"""Crossings, overlaps and the index beneath them, against shapely and against brute force."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from foparq.geom import boxtree
+from foparq.geom.boxtree import BoxTree
+from foparq.geom.crossings import self_meetings
+from foparq.geom.overlaps import line_overlaps
+from foparq.geom.pairs import meetings
+from foparq.geom.polylines import Polylines
+
+FINE = 1e-9
+walk = (
+    st.lists(st.tuples(st.integers(0, 6), st.integers(0, 6)), min_size=2, max_size=6)
+    .filter(lambda way: all(a != b for a, b in pairwise(way)))
+    .map(shapely.LineString)
+)
+
+
+def table(lines: list[shapely.LineString]) -> Polylines:
+    return Polylines.of(np.array([*lines, None], dtype=object)[:-1])
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("count", [0, 1, 3, 4, 5, 17, 300])
+def test_tree_finds_the_pairs_that_brute_force_finds(count: int, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(boxtree, "_CHUNK", 64)
+    rng = np.random.default_rng(seed)
+    low = rng.uniform(0, 1, (count, 2))
+    high = low + rng.exponential(0.1, (count, 2)) * (rng.random((count, 1)) < 0.7)
+    tree = BoxTree(low, high)
+    near = np.all((low[:, None] <= high[None] + 0.01) & (low[None] <= high[:, None] + 0.01), axis=2)
+
+    found = [
+        pair for i, j in tree.pairs(distance=0.01) for pair in zip(np.minimum(i, j), np.maximum(i, j), strict=True)
+    ]
+    assert len(found) == len(set(found))
+    assert set(found) == set(zip(*np.nonzero(np.triu(near, 1)), strict=True))
+
+    asked: set[tuple[int, int]] = set()
+    for rows, boxes in tree.query(low, high, distance=0.01):
+        chunk = set(zip(rows.tolist(), boxes.tolist(), strict=True))
+        assert not {row for row, _ in chunk} & {row for row, _ in asked}, "pairs of one box come together"
+        asked |= chunk
+    assert asked == set(zip(*(axis.tolist() for axis in np.nonzero(near)), strict=True))
+
+
+@settings(max_examples=200, deadline=None, derandomize=True)
+@given(st.lists(walk, min_size=1, max_size=6))
+def test_segments_of_one_line_meet_where_shapely_says_so(lines: list[shapely.LineString]) -> None:
+    pieces = [
+        (n, k, shapely.LineString(step)) for n, line in enumerate(lines) for k, step in enumerate(pairwise(line.coords))
+    ]
+    expected = {
+        (i, j)
+        for i, (n, k, a) in enumerate(pieces)
+        for j, (m, l, b) in enumerate(pieces)
+        if i < j and n == m and k + 1 != l and shapely.intersects(a, b)
+    }
+    assert set(zip(*meetings(table(lines), coincide=FINE).own.tolist(), strict=True)) == expected
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(walk)
+def test_line_meets_itself_where_shapely_calls_it_not_simple(line: shapely.LineString) -> None:
+    assert bool(len(self_meetings(table([line]), coincide=FINE).line)) == (not line.is_simple)
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(st.lists(walk.filter(lambda line: line.is_simple), min_size=2, max_size=5))
+def test_shared_length_is_that_of_the_intersection(lines: list[shapely.LineString]) -> None:
+    found = line_overlaps(table(lines), np.zeros(len(lines), dtype=bool), coincide=FINE)
+    # Crossings are no overlaps; what is left of the intersection has a length.
+    expected = {(j, i): shapely.intersection(lines[i], lines[j]).length for j in range(len(lines)) for i in range(j)}
+    expected = {pair: length for pair, length in expected.items() if length > 1e-6}
+    lengths = dict(zip(zip(found.later, found.earlier, strict=True), found.length, strict=True))
+    assert lengths == pytest.approx(expected, abs=1e-6)
+
+
+def star(count: int) -> NDArray[np.object_]:
+    angle = np.arange(count) * (np.pi / count)
+    arm = np.column_stack([np.cos(angle), np.sin(angle)])
+    lines: NDArray[np.object_] = shapely.linestrings(np.stack([-arm, arm], axis=1))
+    return lines
+
+
+def test_star_overlaps_nowhere() -> None:
+    lines = Polylines.of(star(1000))
+    assert not len(line_overlaps(lines, np.zeros(1000, dtype=bool), coincide=1e-6).length)
+
+
+def test_crosshatch_overlaps_nowhere() -> None:
+    place = np.arange(2000) * 0.001
+    bars = np.stack([np.column_stack([place, 0 * place]), np.column_stack([place, 0 * place + 2])], axis=1)
+    lines = Polylines.of(shapely.linestrings(np.concatenate([bars, bars[:, :, ::-1]])))
+    assert not len(line_overlaps(lines, np.zeros(4000, dtype=bool), coincide=1e-4).length)
+
+
+def test_collinear_lines_overlap_pair_by_pair() -> None:
+    lines = shapely.linestrings([[(n, 2 * n), (n + 1.5, 2 * n + 3)] for n in range(50)])
+    found = line_overlaps(Polylines.of(lines), np.zeros(50, dtype=bool), coincide=1e-6)
+    assert found.earlier.tolist() == list(range(49))
+    assert found.length == pytest.approx(np.full(49, np.hypot(0.5, 1)))
+
+
+def test_figure_of_eight_crosses_once_whichever_way_it_is_cut_up() -> None:
+    angle = np.linspace(0.3, 0.3 + 2 * np.pi, 400)
+    eight = shapely.LineString(np.column_stack([np.sin(angle), np.sin(angle) * np.cos(angle)]))
+    for line in (eight, shapely.segmentize(eight, 0.001)):
+        found = self_meetings(table([line]), coincide=1e-4)
+        assert found.start + Polylines.of(np.array([line])).origin == pytest.approx(np.zeros((1, 2)), abs=1e-4)
+        assert found.loop == pytest.approx([line.length / 2], rel=1e-3)
+
+
+def test_rounded_corners_finer_than_the_tolerance_are_no_meetings() -> None:
+    angle = np.linspace(0, np.pi, 60)
+    turn = np.column_stack([np.cos(angle), np.sin(angle)]) * 0.0004
+    line = shapely.LineString(np.vstack([turn, turn[-1] + [[-0.2, -1]]]))
+    assert not len(self_meetings(table([line]), coincide=0.001).line)
+
+
+@pytest.mark.parametrize(
+    "lines", [[], ["LINESTRING (1 1, 1 1)"], ["LINESTRING (1 1, 1 1, 1 1)", "LINESTRING (1 1, 1 1)"]]
+)
+def test_nothing_and_points_are_no_trouble(lines: list[str]) -> None:
+    drawn = table([shapely.from_wkt(line) for line in lines])
+    assert not len(line_overlaps(drawn, np.zeros(len(lines), dtype=bool), coincide=1e-4).length)
+    assert not len(self_meetings(drawn, coincide=1e-4).line)
