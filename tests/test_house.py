@@ -201,6 +201,12 @@ def placeholders(text: str) -> set[str]:
     return {field for _, field, _, _ in string.Formatter().parse(text) if field is not None}
 
 
+@pytest.mark.parametrize("path", sorted(LOCALE.rglob("*.po")), ids=identify)
+def test_no_message_is_defined_twice(path: Path) -> None:
+    ids = re.findall(r'^msgid "([^"]+)"', path.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    assert not {name for name in ids if ids.count(name) > 1}
+
+
 @pytest.mark.parametrize("domain", DOMAINS)
 def test_catalogues_speak_of_the_same(domain: str) -> None:
     english, portuguese = catalogue("en", domain), catalogue("pt-BR", domain)

@@ -124,7 +124,7 @@ def test_check_says_clean_faults_and_why(foparq: Command, tmp_path: Path) -> Non
     code, out, _ = foparq("check", faulty, "--scale", "1:50")
     assert code == 1
     assert "undershoot" in out
-    assert "4.0 mm" in out
+    assert "4 mm" in out
 
 
 def test_check_needs_the_scale_of_the_profile(foparq: Command, tmp_path: Path) -> None:
@@ -138,6 +138,12 @@ def test_check_with_an_unknown_unit_is_not_decided(foparq: Command, tmp_path: Pa
     assert foparq("check", silent, "--scale", "1:50")[0] == 3
     assert foparq("check", silent, "--scale", "1:50", "--unit", "m")[0] == 1
     assert foparq("check", silent, "--scale", "1:50", "--unit", "stone")[0] == 2
+
+
+def test_a_drawing_that_holds_nothing_is_not_clean(foparq: Command, tmp_path: Path) -> None:
+    code, out, _ = foparq("check", write_dxf(tmp_path / "a.dxf"), "--scale", "1:50")
+    assert code == 3, "no evidence is never a pass"
+    assert "not everything could be checked" in out
 
 
 def test_check_refuses_what_it_cannot_read(foparq: Command, tmp_path: Path) -> None:

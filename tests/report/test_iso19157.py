@@ -175,11 +175,11 @@ def test_measures_carry_id_code_space_names_and_parameters() -> None:
     assert names[0] == "root mean square error"
     description = nodes[0].xpath("string(.//mdq:measureDescription/*)", namespaces=NAMESPACES)
     assert "média: 2,1 mm" in description
-    assert "95,00 %" in description
+    assert "95 %" in description
     topology = nodes[4].xpath("string(.//mdq:measureDescription/*)", namespaces=NAMESPACES)
     assert "undershoot: 1 / 4" in topology
     assert "500,0 µm" in topology or "0,5 mm" in topology
-    assert "10,0 mm" in topology
+    assert "10 mm" in topology
 
 
 def test_a_conformance_result_cites_the_specification_and_explains_itself() -> None:
@@ -187,7 +187,7 @@ def test_a_conformance_result_cites_the_specification_and_explains_itself() -> N
     conformance = node.find("mdq:result/mdq:DQ_ConformanceResult", NAMESPACES)
     assert conformance.xpath("string(.//cit:title/*)", namespaces=NAMESPACES) == "ET/DOC-FOPARQ, class A"
     explanation = conformance.xpath("string(mdq:explanation/*)", namespaces=NAMESPACES)
-    assert explanation == "Q1-X: the RMSE of 7 checkpoints is 4.2 mm, below the limit of 15.0 mm."
+    assert explanation == "Q1-X: the RMSE of 7 checkpoints is 4.2 mm, below the limit of 15 mm."
 
 
 @pytest.mark.parametrize(

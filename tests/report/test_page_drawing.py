@@ -268,7 +268,7 @@ def test_places_are_mean_vertices() -> None:
 
 @pytest.mark.parametrize(
     ("metres", "text"),
-    [(2000.0, "2 km"), (5.0, "5 m"), (1.0, "1 m"), (0.2, "20 cm"), (0.005, "5 mm"), (0.00002, "20,0 µm")],
+    [(2000.0, "2 km"), (5.0, "5 m"), (1.0, "1 m"), (0.2, "20 cm"), (0.005, "5 mm"), (0.00002, "20 µm")],
 )
 def test_scale_bars_are_lettered_in_whole_units(metres: float, text: str) -> None:
     assert bar_text(Words("pt-BR"), metres) == text

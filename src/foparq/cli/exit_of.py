@@ -3,10 +3,12 @@
 
 from foparq.cli.exits import Exit
 from foparq.evaluate.quality import Verdict
-from foparq.findings.outcome import Status
+from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import Severity
 from foparq.model.delivery import SourceStatus
 from foparq.report.record import AuditRecord
+
+_ABOUT_FILES = ("FIL", "DOM")  #: families of rules that look at files; an empty drawing passes them
 
 
 def exit_of(record: AuditRecord) -> Exit:
@@ -25,10 +27,20 @@ def _exit_of_files(record: AuditRecord) -> Exit:
         return Exit.REJECTED
     if _refused(record):
         return Exit.REFUSED
-    open_ends = {"unit-unknown", "unit-doubtful", "crashed"}
-    if any(outcome.status is Status.CRASHED or outcome.because in open_ends for outcome in record.outcomes):
-        return Exit.UNDECIDED
-    return Exit.ACCEPTED
+    return Exit.ACCEPTED if looked_at_everything(record) else Exit.UNDECIDED
+
+
+def looked_at_everything(record: AuditRecord) -> bool:
+    """Whether every file was read, every rule could run, and every drawing held something to check."""
+    if _refused(record) or any(_stopped(outcome) for outcome in record.outcomes):
+        return False
+    geometry = [outcome for outcome in record.outcomes if not outcome.rule.startswith(_ABOUT_FILES)]
+    seen = {outcome.source for outcome in geometry if outcome.checked}
+    return seen == {outcome.source for outcome in geometry}
+
+
+def _stopped(outcome: Outcome) -> bool:
+    return outcome.status is Status.CRASHED or outcome.because in {"unit-unknown", "unit-doubtful"}
 
 
 def _refused(record: AuditRecord) -> bool:

@@ -10,8 +10,8 @@ from pathlib import Path
 import click
 import numpy as np
 
+from foparq.cli.exit_of import looked_at_everything
 from foparq.evaluate.quality import Element
-from foparq.findings.outcome import Status
 from foparq.findings.table import Severity
 from foparq.model.delivery import SourceStatus
 from foparq.report.audit_json import audit_json, findings_csv, findings_jsonl, findings_rows
@@ -80,7 +80,7 @@ def _headline(record: AuditRecord, say: Words) -> str:
     faults = int(np.count_nonzero(record.findings.severity != Severity.NOTE))
     notes = len(record.findings) - faults
     if record.loose:
-        message = "faults" if faults else "clean" if _complete(record) else "incomplete"
+        message = "faults" if faults else "clean" if looked_at_everything(record) else "incomplete"
         return say(f"cli.headline.{message}", faults=faults, notes=notes)
     return say(
         f"cli.headline.{record.quality.verdict.value}",
@@ -88,14 +88,6 @@ def _headline(record: AuditRecord, say: Words) -> str:
         profile=record.profile,
         faults=faults,
         notes=notes,
-    )
-
-
-def _complete(record: AuditRecord) -> bool:
-    read = all(source.status not in {SourceStatus.REFUSED, SourceStatus.MISSING} for source in record.delivery.sources)
-    return read and not any(
-        outcome.status is Status.CRASHED or outcome.because in {"unit-unknown", "unit-doubtful"}
-        for outcome in record.outcomes
     )
 
 

@@ -46,11 +46,17 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element], *,
     if doubts:
         return QualityReport(verdict=Verdict.UNDECIDED, why=tuple(doubts), elements=tuple(elements))
     why = [because("verdict.accepted", elements=[element.id for element in required])]
+    why += _together(element.why[:1] for element in required if _tolerated(element))
     others = [element.id for element in elements if element not in required]
     if others:
         why.append(because("verdict.not-required", elements=others))
     remarks = _together(element.why[1:] for element in required)
     return QualityReport(verdict=Verdict.ACCEPTED, why=(*why, *remarks), elements=tuple(elements))
+
+
+def _tolerated(element: Element) -> bool:
+    """Faults were found and the limit allows them: an acceptance must say so."""
+    return element.unit == "1" and element.comparison == "<=" and bool(element.value)
 
 
 def _together(groups: Iterable[Sequence[Reason]]) -> list[Reason]:

@@ -18,7 +18,7 @@ DOMAINS = ("cli", "errors", "evaluate", "report", "rules")
 
 #: how a quantity is written for people, by SI unit: below which value, unit, factor from SI, decimals
 _LADDERS = {
-    "m": ((1e-4, "µm", 1e6, 1), (1.0, "mm", 1e3, 1), (float("inf"), "m", 1.0, 3)),
+    "m": ((1e-4, "µm", 1e6, 2), (1.0, "mm", 1e3, 2), (float("inf"), "m", 1.0, 3)),
     "m2": ((1e-2, "mm²", 1e6, 1), (float("inf"), "m²", 1.0, 4)),
     "1": ((float("inf"), "%", 1e2, 2),),
     "items": ((float("inf"), "", 1.0, 0),),
@@ -84,10 +84,13 @@ class Words:
         return self.number(value, 0)
 
     def quantity(self, value: float, unit: str) -> str:
-        """Quantity as people write it: ``"4,0 mm"``, ``"0,30 m²"``, ``"6,6 %"``."""
+        """Quantity as people write it: ``"9,79 mm"``, ``"15 mm"``, ``"0,3 m²"``, ``"6,76 %"``."""
         ladder = _LADDERS.get(unit, ((float("inf"), unit, 1.0, 3),))
         name, factor, decimals = next((row[1:] for row in ladder if abs(value) < row[0]), ladder[-1][1:])
-        return f"{self.number(value * factor, decimals)} {name}".rstrip()
+        text = self.number(value * factor, decimals)
+        if decimals:
+            text = text.rstrip("0").rstrip(".,")
+        return f"{text} {name}".rstrip()
 
     def _catalogue(self, domain: str) -> gettext.NullTranslations:
         if domain not in self._catalogues:
