@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from foparq.check.registry import all_rules
 from foparq.check.rule import Rule
 from foparq.findings.hits import NOBODY, Hits
-from foparq.findings.table import finding_key
+from foparq.findings.table import finding_keys
 from foparq.model.inputs import Areas, Features, Lines, Named, areas_of, features_of, lines_of
 
 Coordinates = NDArray[np.float64]
@@ -122,16 +122,13 @@ def run(rule: Rule, columns: Any) -> Hits:
 
 def keys(rule: Rule, columns: Named, hits: Hits, back: Callable[[Geometries], Geometries]) -> list[str]:
     """Keys of the findings, with the place brought back to where it was drawn."""
-    found = []
-    centre = shapely.get_coordinates(shapely.centroid(back(hits.where))) if len(hits) else np.zeros((0, 2))
-    named = np.flatnonzero(~shapely.is_empty(hits.where)) if len(hits) else []
-    place = dict(zip(named, centre, strict=True))
-    for n in range(len(hits)):
-        items = [columns.item[row] for row in (hits.row[n], hits.other[n]) if row != NOBODY]
-        # Off the grid, so that no place lies on the border of two cells of rounding.
-        x, y = place.get(n, np.zeros(2)) + 0.00037
-        found.append(finding_key(rule.code, columns.layer[hits.row[n]], tuple(items), (float(x), float(y)), 0.001))
-    return sorted(found)
+    place = np.full((len(hits), 3), np.nan)
+    named = ~shapely.is_empty(hits.where)
+    # Off the grid, so that no place lies on the border of two cells of rounding.
+    place[named, :2] = shapely.get_coordinates(shapely.centroid(back(hits.where[named]))) + 0.00037
+    layer, item = columns.layer[hits.row], columns.item[hits.row]
+    other = np.array([columns.item[row] if row != NOBODY else "" for row in hits.other], dtype=object)
+    return sorted(finding_keys(rule.code, layer, item, other, place, 0.001).tolist())
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -11,7 +11,7 @@ import shapely
 
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
 from foparq.findings.outcome import Outcome, Status
-from foparq.findings.table import Findings, finding_key, join_findings
+from foparq.findings.table import Findings, finding_keys, join_findings
 from foparq.model.delivery import Delivery, Source, SourceStatus
 from foparq.model.drawing import Drawing, DrawingUnit, Reading, Repair, Skipped, UnitOrigin
 from foparq.model.items import Items
@@ -146,12 +146,10 @@ def findings_of(
     sheet = shapely.transform(
         where, lambda c: drawing.plane.project(np.nan_to_num(c), drawing.unit.metres or 1.0), include_z=True
     )
-    keys = [
-        finding_key(rule, layer, (item,), tuple(places(np.array([place], dtype=object))[0].tolist()), 0.001)
-        for item, layer, place, _ in rows
-    ]
+    item, layer = column([row[0] for row in rows]), column([row[1] for row in rows])
+    keys = finding_keys(rule, layer, item, column([""] * n), places(where), 0.001)
     return Findings(
-        key=column(keys),
+        key=keys,
         rule=column([rule] * n),
         name=column([name] * n),
         severity=column([severity] * n),

@@ -18,7 +18,7 @@ from foparq.check.registry import all_rules, in_order
 from foparq.check.rule import Rule
 from foparq.findings.hits import NOBODY, Geometries, Hits, Reals
 from foparq.findings.outcome import Outcome, Status
-from foparq.findings.table import Findings, Texts, finding_key, join_findings
+from foparq.findings.table import Findings, Texts, finding_keys, join_findings
 from foparq.model.drawing import Drawing, UnitOrigin
 from foparq.model.inputs import Named
 from foparq.profile.schema import CheckSpec, Profile
@@ -167,7 +167,7 @@ def _table(call: _Call, inputs: DrawingInputs, subject: Named, found: Hits) -> F
     layer = subject.layer[found.row]
     limit = call.tolerances[rule.limit] if rule.limit else math.nan
     return Findings(
-        key=_keys(rule.code, layer, item, other, where, inputs.metres),
+        key=finding_keys(rule.code, layer, item, other, _places(where, inputs.metres), _KEY_GRID),
         rule=_same(rule.code, n),
         name=_same(rule.name, n),
         severity=_same(call.spec.severity.value, n),
@@ -217,20 +217,13 @@ def _lift(places: Geometries, inputs: DrawingInputs) -> Geometries:
     return lifted
 
 
-def _keys(code: str, layer: Texts, item: Texts, other: Texts, where: Geometries, metres: float) -> Texts:
-    """Keys, told apart by a number where two findings share one."""
-    seen: dict[str, int] = {}
-    keys = np.empty(len(item), dtype=object)
-    centre = shapely.get_coordinates(shapely.centroid(shapely.force_2d(where)), include_z=False)
-    filled = np.full((len(item), 2), np.nan)
-    filled[~shapely.is_empty(where)] = centre
-    depth = _middle_depth(where)
-    for n in range(len(item)):
-        place = (*(filled[n] * metres), depth[n] * metres)
-        key = finding_key(code, layer[n], tuple(name for name in (item[n], other[n]) if name), place, _KEY_GRID)
-        seen[key] = seen.get(key, 0) + 1
-        keys[n] = key if seen[key] == 1 else f"{key}-{seen[key]}"
-    return keys
+def _places(where: Geometries, metres: float) -> Reals:
+    """(n, 3) one place for each finding, metres in the coordinates of the file; NaN where it has none."""
+    places = np.full((len(where), 3), np.nan)
+    placed = ~shapely.is_empty(where)
+    places[placed, :2] = shapely.get_coordinates(shapely.centroid(shapely.force_2d(where[placed])))
+    places[:, 2] = _middle_depth(where)
+    return places * metres
 
 
 def _middle_depth(where: Geometries) -> Reals:

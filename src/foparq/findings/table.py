@@ -74,29 +74,36 @@ def join_findings(tables: Sequence[Findings]) -> Findings:
     return Findings(**{name: column[order] for name, column in columns.items()})
 
 
-def finding_key(rule: str, layer: str, items: tuple[str, ...], place: tuple[float, ...], grid: float) -> str:
-    """Key of a finding that stays the same between deliveries and orders of items.
+def finding_keys(rule: str, layer: Texts, item: Texts, other: Texts, places: Reals, grid: float) -> Texts:
+    """Keys of findings that stay the same between deliveries and orders of items.
 
     Parameters
     ----------
     rule : str
         Code.
-    layer : str
-    items : tuple of str
-        Ids of the items involved, in any order.
-    place : tuple of float
-        Where, in any unit.
+    layer, item, other : (n,) str
+        Layer and ids of the items involved; ``""`` for none. Which item is the other does not matter.
+    places : (n, 3) float
+        Where, in any unit; NaN for nowhere.
     grid : float
         Cell of rounding, in that unit: well above the noise of coordinates, well below the distance of two findings.
 
     Returns
     -------
-    str
-        ``"TOP021-1a2b3c4d5e"``.
+    (n,) str
+        ``"TOP021-1a2b3c4d5e"``. Findings that share a key are numbered: ``"TOP021-1a2b3c4d5e-2"``.
     """
-    cells = [round(value / grid) if np.isfinite(value) else 0 for value in place]
-    text = "\x1f".join([rule, layer, *sorted(items), *map(str, cells)])
-    return f"{rule}-{hashlib.sha256(text.encode()).hexdigest()[:10]}"
+    # A place absurdly far away is still a place: it stays within what an integer holds.
+    cells = np.clip(np.rint(np.nan_to_num(places / grid)), -(2.0**62), 2.0**62).astype(np.int64).tolist()
+    seen: dict[str, int] = {}
+    keys = np.empty(len(item), dtype=object)
+    for n, (on, one, two, cell) in enumerate(zip(layer, item, other, cells, strict=True)):
+        first, second = (two, one) if two < one else (one, two)
+        text = f"{rule}\x1f{on}\x1f{first}\x1f{second}\x1f{cell}"
+        key = f"{rule}-{hashlib.blake2b(text.encode(), digest_size=5).hexdigest()}"
+        seen[key] = seen.get(key, 0) + 1
+        keys[n] = key if seen[key] == 1 else f"{key}-{seen[key]}"
+    return keys
 
 
 _DTYPES: dict[str, type] = {"size": float, "limit": float, "waived": bool}
