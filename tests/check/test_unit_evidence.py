@@ -151,7 +151,7 @@ def bishop(shared: Path, **options: Any) -> Drawing:
 def test_bishop_as_its_header_says(shared: Path) -> None:
     evidence = unit_evidence(bishop(shared))
     hits = unit_contradiction(evidence, agree=0.02)
-    assert hits.size.tolist() == pytest.approx([25.4])
+    assert hits.size.tolist() == pytest.approx([0.0254])
     assert evidence.handle[0].endswith("(+58)")  # 63 dimensions in all
     assert evidence.layer[0] == "A-DIMS-1"
 
@@ -161,4 +161,4 @@ def test_bishop_in_inches_as_stated(shared: Path) -> None:
     evidence = unit_evidence(bishop(shared, unit="in"))
     hits = unit_contradiction(evidence, agree=0.02)
     assert evidence.item[hits.row].tolist() == ["$INSUNITS"]
-    assert hits.size.tolist() == pytest.approx([1 / 25.4])
+    assert hits.size.tolist() == pytest.approx([0.001])

@@ -132,7 +132,6 @@ def _grouped(drawing: Drawing, dimensions: Dimensions, says: Reals, group: np.nd
     more = len(group) - len(shown)
     points = shapely.get_coordinates(dimensions.where[shown], include_z=True)
     points[:, 2] = np.nan_to_num(points[:, 2])
-    sheet = drawing.plane.project(points, drawing.unit.metres or 1.0)
     row = _row_of(drawing, str(dimensions.handle[by_handle[0]]))
     items = drawing.items
     return _Statement(
@@ -143,7 +142,7 @@ def _grouped(drawing: Drawing, dimensions: Dimensions, says: Reals, group: np.nd
         layer=str(items.layer[row]) if row >= 0 else "",
         inserts=str(items.inserts[row]) if row >= 0 else "",
         row=row,
-        where=shapely.MultiPoint(sheet[:, :2]),
+        where=shapely.MultiPoint(points),
     )
 
 

@@ -100,7 +100,7 @@ class UnitEvidence(Named):
     says: Reals  #: (n,) metres in one drawing unit by this statement
     used: Reals  #: (n,) metres in one drawing unit as used; NaN if none is known
     weight: Reals  #: (n,) relative difference that this statement cannot tell apart
-    where: Geometries  #: (n,) place of the statement, or empty
+    where: Geometries  #: (n,) place of the statement in the coordinates of the file, or empty
 
 
 def nameless(n: int, layer: str = "0") -> dict[str, np.ndarray]:

@@ -9,7 +9,7 @@ from foparq.model.inputs import UnitEvidence
 from foparq.units import Ratio
 
 
-@rule("DOM001", "unit-contradiction", size="1", limit="agree", measures=("16",))
+@rule("DOM001", "unit-contradiction", measures=("16",))
 def unit_contradiction(evidence: UnitEvidence, *, agree: Ratio) -> Hits:
     """Statement in the drawing that contradicts the unit in use.
 
@@ -27,7 +27,7 @@ def unit_contradiction(evidence: UnitEvidence, *, agree: Ratio) -> Hits:
     Returns
     -------
     Hits
-        One a statement: place is that of the statement if it has any, size is says / used.
+        One a statement: place is that of the statement if it has any, size the metres in one drawing unit that it says.
 
     Notes
     -----
@@ -36,4 +36,4 @@ def unit_contradiction(evidence: UnitEvidence, *, agree: Ratio) -> Hits:
     """
     ratio = evidence.says / evidence.used
     row = np.flatnonzero(np.abs(ratio - 1) > np.maximum(agree, evidence.weight))
-    return hits(row, evidence.where[row], ratio[row])
+    return hits(row, evidence.where[row], evidence.says[row])
