@@ -19,6 +19,18 @@ def pytest_report_header() -> list[str]:
     return [f"GEOS {shapely.geos_version_string}, GDAL {gdal}, ezdxf {ezdxf.__version__}"]
 
 
+def pytest_configure() -> None:
+    """Say what is wrong with a rule before every test that needs the rules says something else."""
+    from foparq.check.registry import all_rules
+    from foparq.errors import RuleError
+    from foparq.report.words import Words
+
+    try:
+        all_rules()
+    except RuleError as error:
+        pytest.exit(Words("en").error(error), returncode=1)
+
+
 @pytest.fixture(scope="session")
 def repository() -> Path:
     """Root of the checkout."""

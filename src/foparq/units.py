@@ -20,7 +20,7 @@ class Unit:
     Parameters
     ----------
     symbol : str
-        The SI symbol in which the rule receives the number: ``"m"``, ``"m2"``, ``"rad"``, ``"1"``.
+        The SI symbol in which the rule receives the number: ``"m"``, ``"m2"``, ``"1"`` or ``"items"``.
     """
 
     symbol: str

@@ -3,10 +3,11 @@
 
 import ast
 import inspect
+import itertools
 from dataclasses import dataclass
 from pathlib import Path
 
-from foparq.errors import UsageError
+from foparq.errors import RuleError, UsageError
 
 _FOLDER = Path(__file__).resolve().parent / "rules"
 _UNITS = {"Metres": "m", "SquareMetres": "m2", "Ratio": "1", "Count": "items"}
@@ -30,7 +31,11 @@ class Card:
 def cards() -> list[Card]:
     """A card for every rule, in order of codes."""
     files = sorted(path for path in _FOLDER.rglob("*.py") if path.name != "__init__.py")
-    return sorted((_card(path) for path in files), key=lambda card: card.code)
+    found = sorted((_card(path) for path in files), key=lambda card: card.code)
+    for one, two in itertools.pairwise(found):
+        if one.code == two.code:
+            raise RuleError("rule.code-twice", code=one.code, file=one.name, other=two.name)
+    return found
 
 
 def find_card(text: str) -> Card:

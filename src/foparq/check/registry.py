@@ -29,9 +29,9 @@ def all_rules() -> Mapping[str, Rule]:
         name = module.name.rpartition(".")[2]
         record = getattr(getattr(importlib.import_module(module.name), name, None), "rule", None)
         if not isinstance(record, Rule) or record.name != name.replace("_", "-"):
-            raise RuleError("rule.file-name", file=module.name)
+            raise RuleError("rule.file-name", file=module.name, name=name, example=name.replace("_", "-"))
         if record.code in found:
-            raise RuleError("rule.code-twice", code=record.code)
+            raise RuleError("rule.code-twice", code=record.code, file=module.name, other=found[record.code].name)
         found[record.code] = record
     for record in found.values():
         for needed in record.requires:

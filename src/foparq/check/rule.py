@@ -27,10 +27,10 @@ class Rule:
     subject: type  #: input, one of the types of ``model.inputs``
     tolerances: tuple[tuple[str, str], ...]  #: name and SI unit, in order of the signature
     size_unit: str  #: SI unit of ``Hits.size``: ``"m"``, ``"m2"``, ``"items"``, ``"1"``
-    limit: str  #: the tolerance that a finding exceeds, or misses; ``""`` if none
+    limit: str  #: the tolerance shown beside a finding: what it exceeds, or should have reached; ``""`` if none
     measures: tuple[str, ...]  #: ISO 19157 measure ids this rule can feed
     requires: tuple[str, ...]  #: codes; an item on which one of them found a fault is set aside
-    preview: bool  #: reported, cannot reject
+    preview: bool  #: reported as a note, cannot reject
 
     @property
     def fault(self) -> str:

@@ -18,7 +18,7 @@ from foparq.check.registry import all_rules, in_order
 from foparq.check.rule import Rule
 from foparq.findings.hits import NOBODY, Geometries, Hits, Reals
 from foparq.findings.outcome import Outcome, Status
-from foparq.findings.table import Findings, Texts, finding_keys, join_findings
+from foparq.findings.table import Findings, Severity, Texts, finding_keys, join_findings
 from foparq.model.drawing import Drawing, UnitOrigin
 from foparq.model.inputs import Named
 from foparq.profile.schema import CheckSpec, Profile
@@ -170,7 +170,8 @@ def _table(call: _Call, inputs: DrawingInputs, subject: Named, found: Hits) -> F
         key=finding_keys(rule.code, layer, item, other, _places(where, inputs.metres), _KEY_GRID),
         rule=_same(rule.code, n),
         name=_same(rule.name, n),
-        severity=_same(call.spec.severity.value, n),
+        # A rule in preview is reported and cannot reject, whatever the profile says.
+        severity=_same(Severity.NOTE.value if rule.preview else call.spec.severity.value, n),
         source=_same(drawing.path, n),
         layer=layer,
         item=item,
