@@ -86,6 +86,10 @@ def audit(
     manifest = load_manifest(path)
     profile = load_profile(manifest.delivery.profile, path.parent)
     validate_checks(profile)
+    if manifest.delivery.scale and profile.scale and parse_scale(manifest.delivery.scale) != parse_scale(profile.scale):
+        raise ManifestError(
+            "manifest.scale-differs", file=str(path), value=manifest.delivery.scale, other=profile.scale
+        )
     stated = manifest.delivery.scale or profile.scale
     scale = parse_scale(stated) if stated else None
     if scale is None:
@@ -96,7 +100,7 @@ def audit(
 
 
 def check_files(
-    paths: Sequence[Path], *, profile: Profile, scale: float | None, unit: str | None, plane: str,
+    paths: Sequence[Path], *, profile: Profile, scale: float | None, unit: str | None, plane: str | None,
     areas: tuple[str, ...], language: str, progress: Progress | None = None,
 ) -> Audit:  # fmt: skip
     """Check loose drawings without a manifest; there is no verdict on a delivery.
@@ -109,7 +113,7 @@ def check_files(
         Denominator k of the drawing scale 1:k.
     unit : str or None
         What one drawing unit is; ``None``: as the file says.
-    plane : str
+    plane : str or None
         ``"xy"``, ``"xz"``, ``"yz"`` or ``"fit"``.
     areas : tuple of str
         Patterns of the layers whose closed lines bound areas of a coverage.

@@ -5,6 +5,7 @@
 object. A bare number is never a quantity.
 """
 
+import math
 import re
 from dataclasses import dataclass
 from fractions import Fraction
@@ -43,6 +44,7 @@ LENGTHS: dict[str, float] = {
     "ft": 0.3048,
     "yd": 0.9144,
 }
+_FINEST_UNIT, _COARSEST_UNIT = 1e-9, 1e6  #: metres that a drawing unit can be
 _AREAS = {f"{name}2": factor**2 for name, factor in LENGTHS.items()}
 _SPELLED = {
     "μm": "um",
@@ -151,7 +153,10 @@ def parse_quantity(text: object, symbol: str) -> Quantity:
         raise QuantityError(
             "quantity.wrong-unit", value=text, unit=unit, known=", ".join(_SYMBOLS[symbol]), example=example
         )
-    return Quantity(float(found["number"].replace(",", ".")), unit, found["scale"] is not None)
+    number = float(found["number"].replace(",", "."))
+    if not math.isfinite(number):
+        raise QuantityError("quantity.not-understood", value=text, example=example)
+    return Quantity(number, unit, found["scale"] is not None)
 
 
 def parse_any_quantity(text: object) -> Quantity:
@@ -203,7 +208,7 @@ def parse_length_unit(text: str) -> float:
         length = parse_quantity(text, "m")
     except QuantityError:
         raise QuantityError("quantity.unknown-unit", value=text, known=", ".join(LENGTHS), example="m") from None
-    if length.at_scale or length.number <= 0:
+    if length.at_scale or not _FINEST_UNIT <= length.si() <= _COARSEST_UNIT:
         raise QuantityError("quantity.unknown-unit", value=text, known=", ".join(LENGTHS), example="m")
     return length.si()
 

@@ -209,10 +209,8 @@ def test_features_are_clusters_and_inserts() -> None:
     )
     counts = count_features([thing], gap=0.01)
     assert counts is not None
-    assert list(zip(counts.feature_class, counts.facade, counts.count, strict=True)) == [
-        ("door", "N", 0),
-        ("window", "N", 3),
-    ]
+    # No layer matches PORTA: that is no evidence that doors are missing, the pattern may be misspelt.
+    assert list(zip(counts.feature_class, counts.facade, counts.count, strict=True)) == [("window", "N", 3)]
     assert counts.unmapped == (("PAREDE", 1),)
 
 

@@ -6,6 +6,7 @@ import errno
 import io
 import json
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -21,6 +22,7 @@ from foparq.report import files
 from foparq.report.files import WRITERS
 from foparq.resources import shipped
 
+FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 Command = Callable[..., tuple[int, str, str]]
 
 
@@ -151,7 +153,7 @@ def test_check_refuses_what_it_cannot_read(foparq: Command, tmp_path: Path) -> N
     code, out, err = foparq("check", tmp_path / "a.dxf", "--scale", "1:50")
     assert code == 4
     assert "a.dxf" in out + err
-    assert foparq("check", tmp_path / "nowhere.dxf", "--scale", "1:50")[0] == 4
+    assert foparq("check", tmp_path / "nowhere.dxf", "--scale", "1:50")[0] == 2, "the request is wrong, not a file"
 
 
 def test_rules_can_be_chosen_and_tolerances_set(foparq: Command, tmp_path: Path) -> None:
@@ -212,6 +214,26 @@ def test_terminal_escapes_of_a_drawing_are_shown_and_not_obeyed(foparq: Command,
     assert "red" in out or form == "text"
     assert "\x1b[31m" not in out
     assert "\u202e" not in out
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("--select", "TOP", "--ignore", "TOP"),
+        ("--set", "undershoot.reach=-5mm"),
+        ("--set", "undershoot.reach=0.1mm"),
+        ("--set", "undershoot.reach=1e400mm"),
+        ("--unit", "1e-300 m"),
+    ],
+)
+def test_senseless_requests_are_refused(foparq: Command, tmp_path: Path, arguments: tuple[str, str]) -> None:
+    code, out, err = foparq("check", write_dxf(tmp_path / "a.dxf", *FAULTY), "--scale", "1:50", *arguments)
+    assert (code, out) == (2, "")
+    assert "failed" not in err
+
+
+def test_a_rule_that_had_nothing_to_look_at_is_no_clean_drawing(foparq: Command, tmp_path: Path) -> None:
+    assert foparq("check", write_dxf(tmp_path / "a.dxf", *CLEAN), "--scale", "1:50", "--select", "gap")[0] == 3
 
 
 # --- audit -----------------------------------------------------------------------------------------------------------
@@ -275,6 +297,49 @@ def test_a_folder_that_cannot_be_written_is_told_before_the_work(foparq: Command
     assert "--out" in err
 
 
+def test_a_drawing_named_twice_is_told(foparq: Command, tmp_path: Path) -> None:
+    again = '\n[[drawing]]\npath = "./fachada.dxf"\nunit = "m"\n'
+    code, _, err = foparq("audit", write_delivery(tmp_path / "d", MANIFEST + again, *CLEAN))
+    assert code == 2
+    assert "more than once" in err
+
+
+def test_a_facade_in_space_taken_for_a_plan_is_not_judged(foparq: Command, tmp_path: Path) -> None:
+    document = ezdxf.new("R2010", units=6)
+    for start, end in CLEAN:
+        document.modelspace().add_line((start[0], 5, start[1]), (end[0], 5, end[1]))
+    document.saveas(tmp_path / "a.dxf")
+    assert foparq("check", tmp_path / "a.dxf", "--scale", "1:50")[0] == 3
+    assert foparq("check", tmp_path / "a.dxf", "--scale", "1:50", "--plane", "xz")[0] == 0
+
+
+def test_a_delivery_may_not_disguise_its_own_specification(foparq: Command, tmp_path: Path) -> None:
+    manifest = MANIFEST.replace("[delivery]", '[delivery]\nprofile = "mine.toml"')
+    folder = write_delivery(tmp_path / "d", manifest, *CLEAN)
+    (folder / "mine.toml").write_text('extends = "et-doc-foparq-a"\n', encoding="utf-8")
+    code, _, err = foparq("audit", folder)
+    assert code == 2
+    assert "mine.toml" in err
+    (folder / "mine.toml").write_text('extends = "et-doc-foparq-a"\nname = "mine"\nscale = "1:10"\n', encoding="utf-8")
+    code, _, err = foparq("audit", folder)
+    assert code == 2, "two scales"
+    assert "1:10" in err
+
+
+@pytest.mark.parametrize("name", ["a b\nc", "lat\udce9"])
+def test_folders_with_awkward_names(foparq: Command, tmp_path: Path, name: str) -> None:
+    folder = write_delivery(tmp_path / name, MANIFEST, *CLEAN)
+    assert foparq("audit", folder)[0] == 3
+    assert {path.name for path in (folder / "audit").iterdir()} == set(WRITERS)
+
+
+def test_a_folder_where_a_report_should_be_is_told_before_any_is_replaced(foparq: Command, tmp_path: Path) -> None:
+    folder = write_delivery(tmp_path / "d", MANIFEST, *CLEAN)
+    (folder / "audit" / "findings.gpkg").mkdir(parents=True)
+    assert foparq("audit", folder)[0] == 2
+    assert [path.name for path in (folder / "audit").iterdir()] == ["findings.gpkg"]
+
+
 @pytest.mark.parametrize("place", ["nowhere", "empty"])
 def test_without_a_manifest_the_way_to_one_is_told(foparq: Command, tmp_path: Path, place: str) -> None:
     (tmp_path / "empty").mkdir()
@@ -334,6 +399,15 @@ def test_init_proposes_and_guesses_nothing(foparq: Command, tmp_path: Path, lang
     assert foparq("audit", folder)[0] == 3
 
 
+def test_init_proposes_one_of_two_formats_of_the_same_drawing(foparq: Command, tmp_path: Path) -> None:
+    shutil.copytree(
+        FIXTURES / "deliveries" / "station-a", tmp_path / "d", ignore=shutil.ignore_patterns("*.toml", "audit")
+    )
+    assert foparq("init", tmp_path / "d")[0] == 0
+    manifest = load_manifest(tmp_path / "d" / "delivery.toml")
+    assert [section.path for section in manifest.drawing] == ["fachada.dxf"]
+
+
 def test_init_never_replaces_a_manifest_unasked(foparq: Command, tmp_path: Path) -> None:
     folder = write_delivery(tmp_path / "d", MANIFEST, *CLEAN)
     assert foparq("init", folder)[0] == 2
@@ -366,3 +440,12 @@ def test_help_loads_no_geometry_engine() -> None:
     code = f"import sys; from foparq.cli.main import run; run(['rules']); sys.exit(bool({heavy} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize(("redirect", "code"), [("2>&-", 1), (">/dev/full", 2), (">&-", 1)])
+def test_streams_that_are_closed_or_full(tmp_path: Path, redirect: str, code: int) -> None:
+    faulty = write_dxf(tmp_path / "a.dxf", *FAULTY)
+    command = f'"{sys.executable}" -m foparq check "{faulty}" --scale 1:50 {redirect}'
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert done.returncode == code
+    assert "Traceback" not in done.stderr

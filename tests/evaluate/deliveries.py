@@ -90,7 +90,8 @@ def checkpoints(
     d = np.asarray(differences, dtype=float)
     d = np.stack([d] * 3, axis=1) if d.ndim == 1 else d
     ids = np.array([f"P{n}" for n in range(len(d))], dtype=object)
-    surveyed = np.full(d.shape, at)
+    # A quarter of a metre apart, which binary numbers hold exactly.
+    surveyed = np.full(d.shape, at) + np.arange(len(d))[:, np.newaxis] / 4
     return Checkpoints(
         id=ids, surveyed=surveyed, delivered=surveyed + d, resolution=np.full(3, resolution), survey_sd=survey_sd
     )

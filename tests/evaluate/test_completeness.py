@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Omission and commission by counts, class by class and facade by facade."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -214,6 +216,46 @@ def test_no_limit_decides_nothing() -> None:
     for kind in ("omission", "commission"):
         element = one(spec(kind, limit=None), delivery=delivery, counts=counted(("window", "N", 1)))
         assert (element.status, messages(element)) == (UNDECIDED, ["limit.none"])
+
+
+# --- counts that are an interval -------------------------------------------------------------------------------------
+
+CASES = [  # fewest, most, most of opened blocks; required: commission and omission
+    ((20, 40, 40), 20, (UNDECIDED, PASS)), ((10, 20, 20), 20, (PASS, UNDECIDED)), ((1, 1, 20), 20, (PASS, UNDECIDED)),
+    ((1, 1, 20), 40, (PASS, FAIL)), ((25, 30, 30), 20, (FAIL, PASS)), ((10, 30, 30), 20, (UNDECIDED, UNDECIDED)),
+    ((94, 94, 94), 100, (PASS, FAIL)), ((94, 95, 95), 100, (PASS, UNDECIDED)), ((95, 100, 100), 100, (PASS, PASS)),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("numbers", "required", "expected"), CASES)
+def test_an_interval_decides_where_both_ends_do(numbers: tuple, required: int, expected: tuple) -> None:
+    count, most, pieces = (np.array([number], dtype=np.intp) for number in numbers)
+    counts = replace(counted(("window", "N", numbers[0])), count=count, most=most, pieces=pieces)
+    delivery = drawn(BOUND, features=listed(("window", "N", required)))
+    elements = judge(Q4, Q5, delivery=delivery, counts=counts).elements
+    assert tuple(element.status for element in elements) == expected
+    for element, kind in zip(elements, ("commission", "omission"), strict=True):
+        assert (f"{kind}.interval" in messages(element)) == (element.status is UNDECIDED)
+    omission = elements[1]
+    assert omission.value == max(0, required - numbers[0]) / required
+    if numbers[2] > numbers[0] and omission.value:
+        assert parameter(omission, "missing-least") == max(0, required - numbers[2])
+
+
+def test_hidden_layers_excuse_their_own_class_only() -> None:
+    rows = [("window", "N", 100), ("door", "N", 100)]
+    hidden = (("window", "N", "JANELA-OFF"),)
+    for windows, doors, status in ((50, 100, UNDECIDED), (50, 90, UNDECIDED), (50, 89, FAIL), (100, 100, PASS)):
+        counts = replace(counted(("window", "N", windows), ("door", "N", doors)), hidden=hidden)
+        omission = one(Q5, delivery=drawn(BOUND, features=listed(*rows)), counts=counts)
+        assert omission.status is status
+        assert ("omission.hidden-layers" in messages(omission)) == (status is UNDECIDED)
+
+
+def test_case_tells_no_names_apart_and_the_list_spells_them() -> None:
+    _, omission = both([("Window", "n", 10), ("window", "N", 10)], [("WINDOW", "N", 15), ("window", "n", 5)])
+    assert (omission.status, omission.n, omission.value) == (PASS, 20, 0.0)
+    assert omission.details == (("Window / N", 0.0, 20.0),)
 
 
 # --- properties ------------------------------------------------------------------------------------------------------

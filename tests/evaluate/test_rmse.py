@@ -2,6 +2,7 @@
 """Absolute and relative accuracy: when an RMSE passes, fails, and cannot decide."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -103,6 +104,16 @@ def test_the_bust_would_fail_and_class_b_waives_it() -> None:
 
 
 # --- limit, digits, reference ----------------------------------------------------------------------------------------
+
+
+def test_one_place_measured_seven_times_is_one_checkpoint() -> None:
+    points = checkpoints([0.001] * 7)
+    alike = replace(
+        points, surveyed=points.surveyed[:1].repeat(7, axis=0), delivered=points.delivered[:1].repeat(7, axis=0)
+    )
+    for element in judge(Q1, delivery=surveyed(alike)).elements:
+        assert element.status is UNDECIDED
+        assert element.why[0].message == "absolute.repeated"
 
 
 def test_the_limit_is_strict() -> None:

@@ -81,7 +81,8 @@ def test_shared_length_is_that_of_the_intersection(lines: list[shapely.LineStrin
     # Crossings are no overlaps; what is left of the intersection has a length.
     expected = {(j, i): shapely.intersection(lines[i], lines[j]).length for j in range(len(lines)) for i in range(j)}
     expected = {pair: length for pair, length in expected.items() if length > 1e-6}
-    lengths = dict(zip(zip(found.later, found.earlier, strict=True), found.length, strict=True))
+    pairs = [(max(pair), min(pair)) for pair in zip(found.line.tolist(), found.other.tolist(), strict=True)]
+    lengths = dict(zip(pairs, found.length, strict=True))
     assert lengths == pytest.approx(expected, abs=1e-6)
 
 
@@ -107,7 +108,8 @@ def test_crosshatch_overlaps_nowhere() -> None:
 def test_collinear_lines_overlap_pair_by_pair() -> None:
     lines = shapely.linestrings([[(n, 2 * n), (n + 1.5, 2 * n + 3)] for n in range(50)])
     found = line_overlaps(Polylines.of(lines), np.zeros(50, dtype=bool), coincide=1e-6)
-    assert found.earlier.tolist() == list(range(49))
+    pairs = zip(found.line.tolist(), found.other.tolist(), strict=True)
+    assert sorted(map(min, pairs)) == list(range(49))
     assert found.length == pytest.approx(np.full(49, np.hypot(0.5, 1)))
 
 

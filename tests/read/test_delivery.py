@@ -119,7 +119,7 @@ def test_everything_named_is_read(tmp_path: Path) -> None:
     assert told == ["fachada.dxf", "planta.gpkg", "pontos.csv", "distancias.csv", "feicoes.csv"]
     facade, plan = delivered.drawings
     assert (facade.path, facade.facade, facade.classes, facade.areas) == ("fachada.dxf", "N", {"0": "window"}, ("P*",))
-    assert (facade.plane.name, plan.plane.name) == ("xz", "xy")
+    assert (facade.plane.name, plan.plane.name) == ("xz", "assumed")
     assert (facade.unit.metres, plan.unit.metres) == (1.0, 1.0)
     assert delivered.title == "Estação"
     assert delivered.checkpoints is not None

@@ -22,6 +22,8 @@ from foparq.model.items import Flags, Geometries, Index, Role
 _FACTS = (Repairs, Bombs, HiddenItems, LayerNames, UnitEvidence)
 _LINE_STRING, _LINEAR_RING, _POLYGON = 1, 2, 3
 _RING_VERTICES = 4
+#: by plane: a sheet narrower than this share of its depth is seen from its edge
+_EDGE = {"xy": 0.1, "xz": 0.1, "yz": 0.1, "assumed": 10.0}
 NO_ROW = -1  #: the statement is about no item
 
 
@@ -76,6 +78,24 @@ class DrawingInputs:
             return cast("Geometries", shapely.set_coordinates(moved, sheet))
         moved = shapely.force_2d(moved)
         return cast("Geometries", shapely.set_coordinates(moved, sheet[:, :2]))
+
+    def seen_edge_on(self) -> bool:
+        """Whether the plane shows the drawing from its edge: its width or height is a small part of its depth.
+
+        A facade in space that is taken for a plan collapses onto a line: nothing that is found there means anything.
+        Where xy was only assumed, a drawing that is not flat is doubtful. A plane that was fitted, or given by its
+        axes, was chosen on purpose.
+        """
+        share = _EDGE.get(self.drawing.plane.name)
+        if share is None:
+            return False
+        drawn = self.drawing.items.role[self.rows] != Role.POINT
+        sheet = shapely.get_coordinates(self.geometry[drawn], include_z=True)
+        sheet = np.nan_to_num(sheet[np.isfinite(sheet[:, :2]).all(axis=1)])
+        if not len(sheet):
+            return False
+        width, height, depth = np.ptp(sheet, axis=0)
+        return bool(depth * share > min(width, height))
 
     def layers(self) -> list[str]:
         """Layers that hold anything a rule looks at, in order."""

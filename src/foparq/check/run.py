@@ -21,6 +21,7 @@ from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import Findings, Severity, Texts, finding_keys, join_findings
 from foparq.model.drawing import Drawing, UnitOrigin
 from foparq.model.inputs import Named
+from foparq.model.items import Index, Role
 from foparq.profile.schema import CheckSpec, Profile
 
 _KEY_GRID = 0.001  #: metres: above the noise of coordinates, below the distance of two findings
@@ -73,7 +74,7 @@ def check_drawing(drawing: Drawing, profile: Profile, scale: float | None, progr
         without = frozenset[int]().union(*(faulty.get(code, frozenset()) for code in rule.requires))
         for layers in _scopes(spec, rule.subject, inputs):
             call = _Call(rule, spec, layers, without, scale)
-            outcome, table, trace = _run(call, inputs, _unit_state(drawing, outcomes))
+            outcome, table, trace = _run(call, inputs, _doubt(inputs, outcomes))
             outcomes.append(outcome)
             log.extend(trace)
             if table is not None:
@@ -108,23 +109,26 @@ def _literal(layer: str) -> str:
     return "".join(f"[{c}]" if c in "*?[" else c for c in layer)
 
 
-def _unit_state(drawing: Drawing, outcomes: Sequence[Outcome]) -> str:
+def _doubt(inputs: DrawingInputs, outcomes: Sequence[Outcome]) -> str:
     """Why tolerances in metres mean nothing on this drawing; empty if they do."""
-    if drawing.unit.metres is None:
+    unit = inputs.drawing.unit
+    if unit.metres is None:
         return "unit-unknown"
     doubted = any(outcome.name == _UNIT_RULE and outcome.status is Status.FAULTY for outcome in outcomes)
-    return "unit-doubtful" if doubted and drawing.unit.origin is not UnitOrigin.STATED else ""
+    if doubted and unit.origin is not UnitOrigin.STATED:
+        return "unit-doubtful"
+    return "plane-doubtful" if inputs.seen_edge_on() else ""
 
 
-def _run(call: _Call, inputs: DrawingInputs, unit_state: str) -> tuple[Outcome, Findings | None, list[str]]:
+def _run(call: _Call, inputs: DrawingInputs, doubt: str) -> tuple[Outcome, Findings | None, list[str]]:
     rule, drawing = call.rule, inputs.drawing
     nothing = np.empty(0, dtype=np.intp)
     outcome = Outcome(
         rule=rule.code, name=rule.name, scope=f"{drawing.path}: {', '.join(call.layers)}", source=drawing.path,
         status=Status.NOT_RUN, checked=0, found=0, faulty=nothing, preview=rule.preview,
     )  # fmt: skip
-    if unit_state and any(unit in {"m", "m2"} for _, unit in rule.tolerances):
-        return replace(outcome, because=unit_state), None, []
+    if doubt and any(unit in {"m", "m2"} for _, unit in rule.tolerances):
+        return replace(outcome, because=doubt), None, []
     tolerances = call.tolerances
     parameters = tuple((name, tolerances[name], unit) for name, unit in rule.tolerances)
     outcome = replace(outcome, parameters=parameters)
@@ -144,12 +148,21 @@ def _run(call: _Call, inputs: DrawingInputs, unit_state: str) -> tuple[Outcome, 
     done = replace(
         outcome,
         status=Status.FAULTY if len(found) else Status.CLEAN,
-        checked=len(np.unique(subject.row[subject.row >= 0])) or 1,  # a statement about the file: the file was checked
+        checked=_checked(drawing, subject.row, rows),
         found=len(found),
         faulty=np.unique(rows[rows >= 0]),
         seconds=time.perf_counter() - start,
     )
     return done, table, []
+
+
+def _checked(drawing: Drawing, rows: Index, faulty: Index) -> int:
+    """Features looked at, the denominator of rates. A point has no topology: it counts only where it is at fault."""
+    rows = rows[rows >= 0]
+    if not len(rows):
+        return 1  # a statement about the file: the file was checked
+    drawn = rows[drawing.items.role[rows] != Role.POINT]
+    return len(np.unique(np.concatenate([drawn, faulty[faulty >= 0]])))
 
 
 def _table(call: _Call, inputs: DrawingInputs, subject: Named, found: Hits) -> Findings | None:

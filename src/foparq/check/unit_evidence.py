@@ -17,7 +17,8 @@ _LEAST_SHARE = 0.25  #: a smaller group is faulty lettering or a detail, not the
 _LETTERING = 0.01  #: relative difference that rounded lettering cannot tell apart
 _EXAMPLES = 5
 _STRETCH = 0.002  #: scale of a projection that no survey of a building could overlook
-_SMALLEST, _LARGEST = 0.2, 20_000.0  #: metres across that a drawing of a building can have
+_SMALLEST = 0.2  #: metres across that a drawing of a building has at least
+_LARGEST_DXF, _LARGEST_GIS = 500.0, 20_000.0  #: and at most: of a building, and of a town in a map
 _VAGUE = 0.5  #: weight of what is merely implausible
 _MATCH = 0.02  #: relative difference of a lettered number to the measured length in another unit
 
@@ -62,8 +63,8 @@ def unit_evidence(drawing: Drawing) -> UnitEvidence:
     1 says nothing. A group of less than a quarter of the dimensions is no statement about the drawing.
 
     A projection that stretches lengths by more than 0.2 % contradicts the metres it is counted in. The extent speaks
-    only if the drawing would be less than 0.2 m or more than 20 km across; against strays, the larger bound looks at
-    the middle four fifths of the items.
+    only if the drawing would be less than 0.2 m across, or more than 500 m (DXF) or 20 km (maps); against strays, the
+    larger bound looks at the middle four fifths of the items.
     """
     statements: list[_Statement] = []
     unit = drawing.unit
@@ -75,9 +76,10 @@ def unit_evidence(drawing: Drawing) -> UnitEvidence:
     if unit.metres is not None:
         if abs(unit.stretch - 1) > _STRETCH:
             statements.append(_Statement(unit.metres / unit.stretch, 0.0, "projection", handle=unit.header))
-        across = _implausible(drawing, unit.metres)
+        largest = _LARGEST_DXF if drawing.reading.version.startswith("AC") else _LARGEST_GIS
+        across = _implausible(drawing, unit.metres, largest)
         if across is not None:
-            plausible = _SMALLEST if across < _SMALLEST else _LARGEST
+            plausible = _SMALLEST if across < _SMALLEST else largest
             says = unit.metres * plausible / across
             statements.append(_Statement(says, _VAGUE, "extent", handle=f"{across:.3g} m"))
     return _columns(statements, np.nan if unit.metres is None else unit.metres)
@@ -153,7 +155,7 @@ def _row_of(drawing: Drawing, chain: str) -> int:
     return int(rows[0]) if len(rows) else -1
 
 
-def _implausible(drawing: Drawing, metres: float) -> float | None:
+def _implausible(drawing: Drawing, metres: float, largest: float) -> float | None:
     """Metres across, if no building is; ``None`` if one could be."""
     seen = drawing.visible_rows() & np.isin(drawing.items.role, [Role.LINE, Role.AREA])
     boxes = shapely.bounds(drawing.items.geometry[seen])
@@ -171,4 +173,4 @@ def _implausible(drawing: Drawing, metres: float) -> float | None:
         return float(across)
     middle = np.quantile(boxes[:, 2:], 0.9, axis=0) - np.quantile(boxes[:, :2], 0.1, axis=0)
     spread = float(np.max(middle)) * metres
-    return spread if spread > _LARGEST else None
+    return spread if spread > largest else None

@@ -6,6 +6,7 @@ from foparq.check.rule import Rule
 from foparq.errors import ProfileError
 from foparq.profile.schema import CheckSpec, Profile
 
+_SCALES = (10.0, 100.0)  #: tolerances are compared at a large and at a small scale
 _EXAMPLES = {"m": "0.2 mm @ scale", "m2": "1 m2", "1": "10 %", "items": "5 items"}
 
 
@@ -39,8 +40,14 @@ def _validate_tolerances(spec: CheckSpec, rule: Rule) -> None:
         if quantity.symbol != wanted[name]:
             example = _EXAMPLES[wanted[name]]
             raise ProfileError("profile.tolerance-unit", key=name, value=str(quantity), example=example, **place)
+        if quantity.number < 0:
+            raise ProfileError("profile.tolerance-negative", key=name, value=str(quantity), **place)
     for name, symbol in wanted.items():
         if name not in spec.tolerances:
             raise ProfileError(
                 "profile.missing-tolerance", key=name, example=f'{name} = "{_EXAMPLES[symbol]}"', **place
             )
+    if {"coincide", "reach"} <= set(wanted):
+        coincide, reach = spec.tolerances["coincide"], spec.tolerances["reach"]
+        if any(reach.si(scale) <= coincide.si(scale) for scale in _SCALES):
+            raise ProfileError("profile.reach", value=str(reach), other=str(coincide), **place)

@@ -26,7 +26,11 @@ def command(say: Words) -> click.Command:
         epilog=say("cli.check.exits"),
         params=[
             click.Argument(
-                ["files"], metavar=say("cli.check.files"), nargs=-1, required=True, type=click.Path(path_type=Path)
+                ["files"],
+                metavar=say("cli.check.files"),
+                nargs=-1,
+                required=True,
+                type=click.Path(path_type=Path, exists=True, dir_okay=False),
             ),
             click.Option(["--profile"], default="et-doc-foparq-a", show_default=True, help=say("cli.check.profile")),
             click.Option(["--scale"], metavar="1:K", help=say("cli.check.scale")),
@@ -34,8 +38,6 @@ def command(say: Words) -> click.Command:
             click.Option(
                 ["--plane"],
                 type=click.Choice(["xy", "xz", "yz", "fit"]),
-                default="xy",
-                show_default=True,
                 help=say("cli.check.plane"),
             ),
             click.Option(["--areas"], metavar="LAYER", multiple=True, help=say("cli.check.areas")),

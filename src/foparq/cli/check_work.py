@@ -20,12 +20,14 @@ from foparq.units import parse_length_unit, parse_scale
 
 
 def check_work(
-    say: Words, *, files: tuple[Path, ...], profile: str, scale: str | None, unit: str | None, plane: str,
+    say: Words, *, files: tuple[Path, ...], profile: str, scale: str | None, unit: str | None, plane: str | None,
     areas: tuple[str, ...], select: tuple[str, ...], ignore: tuple[str, ...], settings: tuple[str, ...],
     out: Path | None, form: str,
 ) -> int:  # fmt: skip
     """Check loose drawings, tell what was found; returns the exit code."""
     chosen = _profile(profile, select, ignore, settings)
+    if not chosen.checks:
+        raise UsageError("usage.no-rules", example="--select TOP")
     stated = scale or chosen.scale
     if stated is None:
         raise UsageError("usage.scale", example="--scale 1:50")

@@ -39,7 +39,7 @@ def progress_on_stderr(say: Words) -> Iterator[Callable[[str], None]]:
     callable
         To be told the name of each step.
     """
-    if not sys.stderr.isatty():
+    if sys.stderr is None or not sys.stderr.isatty():
         yield lambda _step: None
         return
     from rich.console import Console  # noqa: PLC0415 - only for a person at a terminal

@@ -40,7 +40,7 @@ def looked_at_everything(record: AuditRecord) -> bool:
 
 
 def _stopped(outcome: Outcome) -> bool:
-    return outcome.status is Status.CRASHED or outcome.because in {"unit-unknown", "unit-doubtful"}
+    return outcome.status is Status.CRASHED or outcome.because in {"unit-unknown", "unit-doubtful", "plane-doubtful"}
 
 
 def _refused(record: AuditRecord) -> bool:

@@ -12,3 +12,6 @@ class Exit(IntEnum):
     USAGE = 2  #: arguments, profile or manifest wrong; results cannot be written
     UNDECIDED = 3  #: evidence missing, undecidable, rule crashed, limit hit
     REFUSED = 4  #: input unreadable or unsafe
+    CRASHED = 70  #: foparq itself failed; nothing is said about the delivery
+    STOPPED = 130  #: interrupted by the user
+    PIPE = 141  #: nobody reads the output any more

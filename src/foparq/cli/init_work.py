@@ -2,7 +2,7 @@
 """What ``foparq init`` does: a manifest proposed from the files found. What only a person knows stays open."""
 
 import json
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import click
 
@@ -14,6 +14,7 @@ from foparq.report.words import Words, printable
 
 _PROFILE = "et-doc-foparq-a"
 _MOST_LAYERS = 40
+_CLEARLY = 2.0  #: so many times wider is an axis of the sheet than its depth
 
 
 def init_work(say: Words, *, folder: Path, force: bool) -> int:
@@ -28,6 +29,9 @@ def init_work(say: Words, *, folder: Path, force: bool) -> int:
         raise ManifestError("manifest.nothing", file=str(folder), example='foparq init "my-delivery"')
     try:
         path.write_text(manifest_text(found, folder.resolve().name, say), encoding="utf-8")
+    except UnicodeEncodeError as error:
+        named = error.object[max(0, error.start - 20) : error.end + 20].strip()
+        raise ManifestError("manifest.name-not-utf8", file=str(folder), value=named) from None
     except OSError as error:
         why = error.strerror or str(error)
         raise WriteError("write.folder", file=str(folder), value=why, example=f'foparq init "{folder}"') from None
@@ -59,8 +63,13 @@ def manifest_text(found: Survey, title: str, say: Words) -> str:
         f'# scale = "1:50"  # {say("cli.manifest.scale")}',
         f"language = {_quoted(say.language)}",
     ]
-    for drawing in found.drawings:
-        lines += ["", *_drawing(drawing, say)]
+    for n, drawing in enumerate(found.drawings):
+        twin = next((other for other in found.drawings[:n] if _same_drawing(drawing, other)), None)
+        proposed = _drawing(drawing, say)
+        if twin is not None:
+            told = _comment(say("cli.manifest.twin", file=drawing.path, other=twin.path))
+            proposed = [*told, *(line if line.startswith("#") else f"# {line}" for line in proposed)]
+        lines += ["", *proposed]
     for role, example in (("features", ""), ("checkpoints", "3 mm"), ("distances", "3 mm")):
         lines += ["", *_comment(say(f"cli.manifest.{role}")), *_table(role, found.tables.get(role, ()), example, say)]
     if found.others:
@@ -78,7 +87,7 @@ def _drawing(drawing: FoundDrawing, say: Words) -> list[str]:
         "[[drawing]]",
         f"path = {_quoted(drawing.path)}",
         f"# unit = {_quoted(unit)}  # {says}",
-        f"plane = {_quoted(_plane(drawing.extent))}  # {say('cli.manifest.plane', x=x, y=y, z=z)}",
+        f"{_plane(drawing.extent)}  # {say('cli.manifest.plane', x=x, y=y, z=z)}",
         f'# facade = "N"  # {say("cli.manifest.facade")}',
         *_comment(say("cli.manifest.classes")),
         '# classes = { "ESQUADRIA*" = "window", "PORTA*" = "door" }',
@@ -90,10 +99,16 @@ def _drawing(drawing: FoundDrawing, say: Words) -> list[str]:
     ]
 
 
+def _same_drawing(one: FoundDrawing, two: FoundDrawing) -> bool:
+    """Whether two files are one drawing in two formats: named alike."""
+    return PurePosixPath(one.path).with_suffix("") == PurePosixPath(two.path).with_suffix("")
+
+
 def _plane(extent: tuple[float, float, float]) -> str:
-    """The two widest axes: a facade drawn in space stands upright."""
-    narrowest = min(range(3), key=lambda axis: (extent[axis], -axis))
-    return ("yz", "xz", "xy")[narrowest]
+    """Line that states the two widest axes: a facade drawn in space stands upright. Left open where two are alike."""
+    order = sorted(range(3), key=lambda axis: (extent[axis], -axis))
+    line = f'plane = "{("yz", "xz", "xy")[order[0]]}"'
+    return line if extent[order[1]] > _CLEARLY * extent[order[0]] else f"# {line}"
 
 
 def _table(role: str, names: tuple[str, ...], survey_sd: str, say: Words) -> list[str]:

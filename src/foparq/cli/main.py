@@ -6,6 +6,7 @@ import importlib
 import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 import click
 
@@ -64,32 +65,48 @@ def run(arguments: Sequence[str]) -> int:
     int
         Exit code, see :class:`foparq.cli.exits.Exit`.
     """
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")
+    _open_streams()
     asked = _asked_language(arguments)
     language = language_of(asked)
     _speak(language)
     say = Words(language)
     try:
         code = command_line(say).main(list(arguments), prog_name="foparq", standalone_mode=False, obj=asked)
-    except click.ClickException as error:
+    except SystemExit:
+        return Exit.PIPE  # the reader of a pipe left early, as `head` does: click ends so
+    except BaseException as error:  # noqa: BLE001 - no traceback reaches a user
+        return _last_word(error, say)
+    return int(code or 0)
+
+
+def _last_word(error: BaseException, say: Words) -> Exit:
+    """Tell what ended the command; returns the exit code."""
+    code, text = Exit.CRASHED, ""
+    if isinstance(error, click.ClickException):
         error.show()
         return Exit.USAGE
-    except (click.Abort, KeyboardInterrupt):
-        click.echo(say("cli.aborted"), err=True)
-        return Exit.USAGE
-    except FoparqError as error:
-        click.echo(f"{say('cli.error')}: {say.error(error)}", err=True)
-        return _exit_of(error)
-    except BrokenPipeError:
-        # The reader of a pipe left early, as `head` does; nothing more can be said.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return Exit.USAGE
-    except Exception:  # noqa: BLE001 - no traceback reaches a user; it is kept for the report of the error
-        click.echo(f"{say('cli.error')}: {say('cli.crashed', file=_kept_traceback())}", err=True)
-        return Exit.UNDECIDED
-    return int(code or 0)
+    if isinstance(error, click.Abort | KeyboardInterrupt):
+        code, text = Exit.STOPPED, say("cli.aborted")
+    elif isinstance(error, FoparqError):
+        code, text = _exit_of(error), f"{say('cli.error')}: {say.error(error)}"
+    elif isinstance(error, OSError) and error.filename is None:  # standard output is full or gone
+        why = say("cli.no-output", value=error.strerror or str(error))
+        code, text = Exit.USAGE, f"{say('cli.error')}: {why}"
+    else:
+        text = f"{say('cli.error')}: {say('cli.crashed', file=_kept_traceback())}"
+    click.echo(text, err=True)
+    return code
+
+
+def _open_streams() -> None:
+    """Streams that can always be written to: closed ones lead nowhere, letters a terminal lacks become escapes."""
+    if sys.stdout is None:
+        sys.stdout = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - lives as long as the process
+    if sys.stderr is None:
+        sys.stderr = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
 
 
 def _kept_traceback() -> str:
@@ -104,7 +121,7 @@ def _kept_traceback() -> str:
     return stream.name
 
 
-def _exit_of(error: FoparqError) -> int:
+def _exit_of(error: FoparqError) -> Exit:
     if isinstance(error, InputError):
         return Exit.REFUSED
     return Exit.USAGE if isinstance(error, UsageError | WriteError) else Exit.UNDECIDED

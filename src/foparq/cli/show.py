@@ -2,10 +2,11 @@
 """What the terminal shows of a finished audit."""
 
 import json
+import os
 import shutil
-import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import click
 import numpy as np
@@ -39,13 +40,17 @@ def show(record: AuditRecord, form: str, say: Words, written: Sequence[Path]) ->
     if form == "json":
         click.echo(json.dumps(audit_json(record), ensure_ascii=False, indent=2))
     elif form == "jsonl":
-        sys.stdout.writelines(line + "\n" for line in findings_jsonl(record))
+        for line in findings_jsonl(record):
+            click.echo(line)
     elif form == "csv":
         click.echo(findings_csv(record), nl=False)
     elif form == "concise":
         _concise(record, say)
     else:
         _text(record, say, written)
+    if form in {"concise", "jsonl", "csv"}:
+        for line in _unread(record, say):
+            click.echo(line, err=True)
 
 
 def _concise(record: AuditRecord, say: Words) -> None:
@@ -62,7 +67,7 @@ def _text(record: AuditRecord, say: Words, written: Sequence[Path]) -> None:
         if not record.loose
         else None
     )
-    click.echo(click.style(_headline(record, say), bold=True, fg=colour))
+    click.echo(_styled(_headline(record, say), bold=True, fg=colour))
     if not record.loose:
         for reason in record.quality.why:
             click.echo(f"  - {reason_sentence(say, reason)}")
@@ -107,6 +112,7 @@ def _element(element: Element, say: Words) -> None:
 def _findings(record: AuditRecord, say: Words) -> None:
     table = record.findings
     rows = list(findings_rows(record, say))
+    several = len(record.delivery.drawings) > 1
     for severity in Severity:
         names = sorted(set(table.name[table.severity == severity].tolist()))
         for name in names:
@@ -115,23 +121,32 @@ def _findings(record: AuditRecord, say: Words) -> None:
             rule = of_name[0]["rule"]
             click.echo()
             click.echo(
-                click.style(f"{rule} {name}", bold=True)
+                _styled(f"{rule} {name}", bold=True)
                 + f" ({say(f'cli.severity.{severity.value}')}): {say.count(count)}. {say(f'rules.{rule}.title')}"
             )
             for row in of_name[:_SHOWN]:
-                click.echo(f"  {_place(row['where'])}  {row['message']}")
+                file = f"{printable(row['source'])} " if several else ""
+                click.echo(f"  {file}{_place(row['where'])}  {row['message']}")
             if count > _SHOWN:
                 click.echo(f"  {say('cli.more', count=count - _SHOWN)}")
             if severity is not Severity.NOTE:
                 click.echo(_wrapped(say(f"rules.{rule}.mend"), "  > "))
 
 
-def _not_checked(record: AuditRecord, say: Words) -> None:
-    unread = {SourceStatus.REFUSED, SourceStatus.MISSING, SourceStatus.UNNAMED}
-    lines = [
+def _unread(record: AuditRecord, say: Words) -> list[str]:
+    return [
         f"{printable(source.path)}: {source_sentence(say, source)}"
         for source in record.delivery.sources
-        if source.status in unread
+        if source.status in {SourceStatus.REFUSED, SourceStatus.MISSING}
+    ]
+
+
+def _not_checked(record: AuditRecord, say: Words) -> None:
+    lines = _unread(record, say)
+    lines += [
+        f"{printable(source.path)}: {source_sentence(say, source)}"
+        for source in record.delivery.sources
+        if source.status is SourceStatus.UNNAMED
     ]
     unit = sorted(
         {
@@ -143,9 +158,15 @@ def _not_checked(record: AuditRecord, say: Words) -> None:
     lines += [f"{printable(source)}: {because}" for source, because in unit]
     if lines:
         click.echo()
-        click.echo(click.style(say("cli.not-checked"), bold=True))
+        click.echo(_styled(say("cli.not-checked"), bold=True))
         for line in lines:
             click.echo(f"  {line}")
+
+
+def _styled(text: str, **style: Any) -> str:  # noqa: ANN401 - click's own arguments
+    """Text with colour, unless the user asked for none (no-color.org) or the terminal knows none."""
+    plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
+    return text if plain else click.style(text, **style)
 
 
 def _size(say: Words, value: float | None, unit: str) -> str:

@@ -27,7 +27,8 @@ def absolute(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
     Returns
     -------
     tuple of Element
-        ``Q1-X``, ``Q1-Y``, ``Q1-Z``. See :func:`foparq.evaluate.threshold.judge_rmse` for the order of decisions.
+        ``Q1-X``, ``Q1-Y``, ``Q1-Z``. See :func:`foparq.evaluate.threshold.judge_rmse` for the order of decisions; what
+        would pass stays undecided if several points stand at one place.
     """
     return tuple(_axis(spec, evidence, axis) for axis in range(len(AXES)))
 
@@ -47,11 +48,19 @@ def _axis(spec: ElementSpec, evidence: Evidence, axis: int) -> Element:
         resolution=float(points.resolution[axis]), survey_sd=points.survey_sd,
     )  # fmt: skip
     judgement = judged(ElementStatus.UNDECIDED, no_limit) if no_limit else judge_rmse(sample, spec, limit or 0.0)
+    if judgement.status is ElementStatus.PASS and (repeated := _repeated(points)):
+        case = because("absolute.repeated", element=id_, n=repeated, total=len(points.id))
+        judgement = judged(ElementStatus.UNDECIDED, case)
     found = moments(sample.known)
     return element(
         spec, "39", judgement, id=id_, scope=scope, n=found.n, value=found.rmse, limit=limit, comparison="<",
         parameters=(*rmse_parameters(sample, spec), ("rmse-xyz", _in_space(points), "m")), method="directExternal",
     )  # fmt: skip
+
+
+def _repeated(points: Checkpoints) -> int:
+    """Points at a place that another point already stands for: one place measured twice is one checkpoint."""
+    return len(points.id) - len(np.unique(points.surveyed, axis=0))
 
 
 def _in_space(points: Checkpoints) -> float:

@@ -2,19 +2,22 @@
 """Specified against delivered features, by class and facade.
 
 Counts cannot tell which feature is missing: as many optional features as are drawn may stand for required ones. A
-deficit on one facade is never made good by a surplus on another.
+deficit on one facade is never made good by a surplus on another. Delivered features are counted as an interval: what
+decides is what holds for the fewest and for the most there may be.
 """
 
 from collections import defaultdict
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 
 from foparq.evaluate.evidence import Evidence, Judgement, judged
 from foparq.evaluate.quality import ElementStatus, Reason, because
 from foparq.findings.counts import FeatureCounts
+from foparq.model.items import Texts
 from foparq.model.tables import FeatureList
 
 
@@ -35,10 +38,13 @@ class Balance:
     facade: str  #: ``""`` if the list states none
     required: int = 0
     optional: int = 0
-    delivered: int = 0  #: 0 if not comparable
+    delivered: int = 0  #: the fewest there may be; 0 if not comparable
+    most: int = 0  #: the most there may be, every block being one
+    pieces: int = 0  #: the most there may be, blocks that may hold several being opened
     accepted: int = 0  #: required ones whose omission is accepted, with evidence
     unproven: int = 0  #: required ones whose omission is said to be accepted, without evidence
     gap: Gap = Gap.NONE
+    hidden: tuple[str, ...] = ()  #: layers of the class with items that nobody sees
 
     @property
     def label(self) -> str:
@@ -51,6 +57,11 @@ class Balance:
         return max(0, self.required - self.delivered)
 
     @property
+    def missing_least(self) -> int:
+        """Required features that are not drawn even if every piece is a feature."""
+        return max(0, self.required - max(self.delivered, self.pieces))
+
+    @property
     def missing_net(self) -> int:
         """Required features that are not drawn, without those whose omission is accepted with evidence."""
         return max(0, self.missing - self.accepted)
@@ -59,6 +70,31 @@ class Balance:
     def surplus(self) -> int:
         """Drawn features that the list does not allow; of a prohibited class, all."""
         return max(0, self.delivered - self.required - self.optional)
+
+    @property
+    def surplus_most(self) -> int:
+        """The same if nothing belongs to what surrounds it."""
+        return max(0, max(self.delivered, self.most) - self.required - self.optional)
+
+
+@dataclass(slots=True)
+class _Drawn:
+    # Features of one class on one facade, as in ``FeatureCounts``.
+    delivered: int = 0
+    most: int = 0
+    pieces: int = 0
+    hidden: set[str] = field(default_factory=set)
+
+    def add(self, other: "_Drawn") -> None:
+        self.delivered += other.delivered
+        self.most += other.most
+        self.pieces += other.pieces
+        self.hidden |= other.hidden
+
+    def row(self) -> dict[str, Any]:
+        return {
+            "delivered": self.delivered, "most": self.most, "pieces": self.pieces, "hidden": tuple(sorted(self.hidden)),
+        }  # fmt: skip
 
 
 def balances(features: FeatureList, counts: FeatureCounts) -> tuple[Balance, ...]:
@@ -71,15 +107,19 @@ def balances(features: FeatureList, counts: FeatureCounts) -> tuple[Balance, ...
     counts : FeatureCounts
         A class and facade that is there with a count of 0 has a layer bound to it.
 
+    Names of classes and facades are told apart without regard to case; the spelling of the list is shown.
+
     Returns
     -------
     tuple of Balance
         A class that is drawn on a facade where the list has none of it is a surplus, as long as the list speaks of both
         the class and the facade; else it is ``Gap.UNLISTED``.
     """
-    drawn: dict[str, dict[str, int]] = defaultdict(dict)
-    for name, facade, count in zip(counts.feature_class, counts.facade, counts.count, strict=True):
-        drawn[name][facade] = drawn[name].get(facade, 0) + int(count)
+    spelt = _Spelling((features.feature_class, counts.feature_class), (features.facade, counts.facade))
+    features = replace(
+        features, feature_class=spelt.classes(features.feature_class), facade=spelt.facades(features.facade)
+    )
+    drawn = _drawn(counts, spelt)
     listed: dict[str, set[str]] = defaultdict(set)
     for name, facade in zip(features.feature_class, features.facade, strict=True):
         listed[name].add(facade)
@@ -88,6 +128,21 @@ def balances(features: FeatureList, counts: FeatureCounts) -> tuple[Balance, ...
     for name in sorted({*listed, *drawn}):
         made.extend(_of_class(features, name, listed.get(name, set()), drawn.get(name, {}), spoken))
     return tuple(made)
+
+
+def interval(message: str, rows: Iterable[tuple[Balance, int]], **said: object) -> Reason:
+    """Reason that names classes with the fewest and the most features that each may have.
+
+    Parameters
+    ----------
+    message : str
+    rows : iterable of (Balance, int)
+        Classes and the most features.
+    said
+        Further fields.
+    """
+    named = [f"{row.label}: {row.delivered}–{most}" for row, most in rows]
+    return because(message, classes=named[:10], n=len(named), **said)
 
 
 def gap_reasons(rows: tuple[Balance, ...], name: str, gaps: tuple[Gap, ...]) -> tuple[Reason, ...]:
@@ -140,30 +195,70 @@ def unmapped(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:
     return (because("features.unmapped", element=name, layers=layers[:10], n=len(layers), items=items),)
 
 
+class _Spelling:
+    """One spelling of every name: the first in order, of the list if it is there."""
+
+    def __init__(self, classes: tuple[Texts, Texts], facades: tuple[Texts, Texts]) -> None:
+        self._class, self._facade = _first(*classes), _first(*facades)
+
+    def classes(self, names: Texts) -> Texts:
+        return _renamed(names, self._class)
+
+    def facades(self, names: Texts) -> Texts:
+        return _renamed(names, self._facade)
+
+
+def _first(listed: Texts, drawn: Texts) -> dict[str, str]:
+    spelling: dict[str, str] = {}
+    for name in (*sorted(set(listed.tolist())), *sorted(set(drawn.tolist()))):
+        spelling.setdefault(name.casefold(), name)
+    return spelling
+
+
+def _renamed(names: Texts, spelling: Mapping[str, str]) -> Texts:
+    renamed: Texts = np.empty(len(names), dtype=object)
+    renamed[:] = [spelling.get(name.casefold(), name) for name in names.tolist()]
+    return renamed
+
+
+def _drawn(counts: FeatureCounts, spelt: _Spelling) -> dict[str, dict[str, _Drawn]]:
+    drawn: dict[str, dict[str, _Drawn]] = defaultdict(lambda: defaultdict(_Drawn))
+    columns = (spelt.classes(counts.feature_class), spelt.facades(counts.facade))
+    for name, facade, count, most, pieces in zip(*columns, counts.count, counts.most, counts.pieces, strict=True):
+        drawn[name][facade].add(_Drawn(int(count), int(most), int(pieces)))
+    told = [np.array([row[part] for row in counts.hidden], dtype=object) for part in range(3)]
+    for name, facade, layer in zip(spelt.classes(told[0]), spelt.facades(told[1]), told[2], strict=True):
+        if facade in drawn.get(name, {}):
+            drawn[name][facade].hidden.add(layer)
+    return drawn
+
+
 def _of_class(
-    features: FeatureList, name: str, listed: set[str], drawn: Mapping[str, int], spoken: set[str]
+    features: FeatureList, name: str, listed: set[str], drawn: Mapping[str, _Drawn], spoken: set[str]
 ) -> list[Balance]:
     if not listed:
-        rows = [Balance(feature_class=name, facade=f, delivered=n, gap=Gap.UNLISTED) for f, n in sorted(drawn.items())]
+        rows = [Balance(feature_class=name, facade=f, gap=Gap.UNLISTED, **n.row()) for f, n in sorted(drawn.items())]
         return [row for row in rows if row.delivered]
-    vague = ("" in listed and len(listed) > 1) or ("" not in listed and drawn.get("", 0) > 0)
+    vague = ("" in listed and len(listed) > 1) or ("" not in listed and "" in drawn and drawn[""].delivered > 0)
     made = []
     for facade in sorted(listed):
         if listed == {""}:
-            delivered, gap = sum(drawn.values()), Gap.NONE if drawn else Gap.UNBOUND
+            delivered, gap = _Drawn(), Gap.NONE if drawn else Gap.UNBOUND
+            for one in drawn.values():
+                delivered.add(one)
         elif vague:
-            delivered, gap = 0, Gap.FACADE
+            delivered, gap = _Drawn(), Gap.FACADE
         else:
-            delivered, gap = drawn.get(facade, 0), Gap.NONE if facade in drawn else Gap.UNBOUND
+            delivered, gap = drawn.get(facade, _Drawn()), Gap.NONE if facade in drawn else Gap.UNBOUND
         made.append(_listed(features, name, facade, delivered, gap))
     if not vague and listed != {""}:
         for facade in sorted(set(drawn) - listed):
             gap = Gap.NONE if facade in spoken else Gap.UNLISTED
-            made.append(Balance(feature_class=name, facade=facade, delivered=drawn[facade], gap=gap))
+            made.append(Balance(feature_class=name, facade=facade, gap=gap, **drawn[facade].row()))
     return [row for row in made if row.facade in listed or row.delivered]
 
 
-def _listed(features: FeatureList, name: str, facade: str, delivered: int, gap: Gap) -> Balance:
+def _listed(features: FeatureList, name: str, facade: str, delivered: _Drawn, gap: Gap) -> Balance:
     rows = (features.feature_class == name) & (features.facade == facade)
     required = rows & (features.use == "required")
     excused = required & (features.accepted != "")
@@ -172,5 +267,7 @@ def _listed(features: FeatureList, name: str, facade: str, delivered: int, gap: 
         "required": required, "optional": rows & (features.use == "optional"),
         "accepted": proven, "unproven": excused & ~proven,
     }  # fmt: skip
-    counted = {key: int(features.count[np.asarray(mask, dtype=bool)].sum()) for key, mask in total.items()}
-    return Balance(feature_class=name, facade=facade, delivered=delivered, gap=gap, **counted)
+    counted: dict[str, Any] = {
+        key: int(features.count[np.asarray(mask, dtype=bool)].sum()) for key, mask in total.items()
+    }
+    return Balance(feature_class=name, facade=facade, gap=gap, **delivered.row(), **counted)

@@ -1,7 +1,17 @@
 # SPDX-License-Identifier: MIT
 """Commission: drawn features that the specification does not ask for."""
 
-from foparq.evaluate.balance import Balance, Gap, balances, doubtful, gap_reasons, no_balance, uncounted, unmapped
+from foparq.evaluate.balance import (
+    Balance,
+    Gap,
+    balances,
+    doubtful,
+    gap_reasons,
+    interval,
+    no_balance,
+    uncounted,
+    unmapped,
+)
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
 from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.profile.schema import ElementSpec
@@ -17,9 +27,11 @@ def commission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
     The order of decisions:
 
     1. No list, or no layer bound to a class: not assessed. A drawing that contradicts its own unit: undecided.
-    2. The rate exceeds the limit: it fails. What was not seen can only add to the surplus.
-    3. Classes that could not be compared, and parts of the drawings that nobody saw: undecided. Drawn features of a
-       class or facade of which the list says nothing belong here: a list that is silent prohibits nothing.
+    2. The rate exceeds the limit even with the fewest features that the drawings may hold: it fails. What was not seen
+       can only add to the surplus.
+    3. The rate exceeds the limit only with the most features: undecided. So are classes that could not be compared, and
+       parts of the drawings that nobody saw. Drawn features of a class or facade of which the list says nothing belong
+       here: a list that is silent prohibits nothing.
     4. Otherwise it passes. Layers that are bound to no class are not assessed and never count.
 
     Parameters
@@ -50,6 +62,8 @@ def commission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
         judgement = _judge(spec, evidence, every, limit)
     value = surplus / required if required else None if surplus else 0.0
     parameters = [("surplus", float(surplus), "items"), ("delivered", float(delivered), "items")]
+    if (most := sum(row.surplus_most for row in known)) > surplus:
+        parameters.append(("surplus-most", float(most), "items"))
     if delivered:
         parameters.append(("share-of-delivered", surplus / delivered, "1"))
     made = element(
@@ -66,13 +80,22 @@ def _judge(spec: ElementSpec, evidence: Evidence, every: tuple[Balance, ...], li
     surplus, required = sum(row.surplus for row in known), sum(row.required for row in known)
     gaps = gap_reasons(every, name, (Gap.UNLISTED, Gap.UNBOUND, Gap.FACADE))
     worst = sorted((row for row in known if row.surplus), key=lambda row: (-row.surplus, row.label))
-    fields = {
+    fields: dict[str, object] = {
         "element": name, "surplus": surplus, "required": required, "limit": (limit, "1"),
-        "classes": [row.label for row in worst[:10]],
     }  # fmt: skip
-    if surplus and (not required or surplus / required > limit):
-        return judged(ElementStatus.FAIL, because("commission.fail", **fields), *gaps)
-    doubts = (*gaps, *unseen(evidence, name), *uncounted(evidence, name))
+    if _exceeds(surplus, required, limit):
+        return judged(
+            ElementStatus.FAIL, because("commission.fail", **fields, classes=[row.label for row in worst[:10]]), *gaps
+        )
+    several = []
+    if _exceeds(most := sum(row.surplus_most for row in known), required, limit):
+        unclear = [(row, row.most) for row in known if row.surplus_most > row.surplus]
+        several.append(interval("commission.interval", unclear, most=most, **fields))
+    doubts = (*several, *gaps, *unseen(evidence, name), *uncounted(evidence, name))
     if doubts:
         return judged(ElementStatus.UNDECIDED, *doubts)
     return judged(ElementStatus.PASS, because("commission.pass", **fields))
+
+
+def _exceeds(surplus: int, required: int, limit: float) -> bool:
+    return surplus > 0 and (not required or surplus / required > limit)

@@ -60,6 +60,8 @@ def _judge(spec: ElementSpec, evidence: Evidence, found: Tally, limit: float) ->
     }  # fmt: skip
     preview = because("checks.preview", element=name, rules=list(found.preview))
     remarks = (preview,) if found.preview else ()
+    if free := sum(outcome.found for outcome in evidence.outcomes if outcome.name == "free-end"):
+        remarks = (*remarks, because("faulty.free", element=name, n=free))
     if any(why == "crashed" for why, _ in found.broken):
         return judged(ElementStatus.UNDECIDED, *broken, *remarks)
     if found.faulty / (found.checked + found.unrun) > limit:

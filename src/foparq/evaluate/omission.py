@@ -1,9 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Omission: specified features that are not drawn."""
 
-from foparq.evaluate.balance import Balance, Gap, balances, doubtful, gap_reasons, no_balance, uncounted, unmapped
+from foparq.evaluate.balance import (
+    Balance,
+    Gap,
+    balances,
+    doubtful,
+    gap_reasons,
+    interval,
+    no_balance,
+    uncounted,
+    unmapped,
+)
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
-from foparq.evaluate.quality import Element, ElementStatus, because
+from foparq.evaluate.quality import Element, ElementStatus, Reason, because
 from foparq.profile.schema import ElementSpec
 
 _MEASURE = "7"
@@ -18,9 +28,11 @@ def omission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
 
     1. No list, or no layer bound to a class: not assessed. A drawing that contradicts its own unit: undecided.
     2. Parts of the drawings that nobody saw may hold what is missing: a rate above the limit is undecided.
-    3. The rate exceeds the limit, even if the classes that could not be compared were complete: it fails.
-    4. Classes that could not be compared: undecided, and named. No layer bound to a class is no evidence of omission.
-    5. Otherwise it passes.
+    3. The rate exceeds the limit even with the most features that the drawings may hold, and even if classes that could
+       not be compared, or have items on hidden layers, were complete: it fails.
+    4. The rate exceeds the limit only with the fewest features, or without what is hidden: undecided.
+    5. Classes that could not be compared: undecided, and named. No layer bound to a class is no evidence of omission.
+    6. Otherwise it passes.
 
     Parameters
     ----------
@@ -53,6 +65,8 @@ def omission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
         ("not-compared", float(sum(row.required for row in every) - required), "items"),
         ("missing-net", float(net), "items"), ("accepted", float(sum(row.accepted for row in known)), "items"),
     ]  # fmt: skip
+    if (least := sum(row.missing_least for row in known)) < missing:
+        parameters.append(("missing-least", float(least), "items"))
     if required:
         parameters.append(("net-rate", net / required, "1"))
     made = element(
@@ -74,7 +88,7 @@ def _judge(spec: ElementSpec, evidence: Evidence, every: tuple[Balance, ...], li
         return judged(ElementStatus.NOT_ASSESSED, because("omission.nothing-required", element=name))
     if not required:
         return judged(ElementStatus.UNDECIDED, *gaps)
-    fields = {
+    fields: dict[str, object] = {
         "element": name, "missing": missing, "required": required, "value": (missing / required, "1"),
         "limit": (limit, "1"),
     }  # fmt: skip
@@ -89,7 +103,23 @@ def _judge(spec: ElementSpec, evidence: Evidence, every: tuple[Balance, ...], li
     if missing / required > limit and hidden:
         return judged(ElementStatus.UNDECIDED, because("omission.hidden", **fields), *hidden, *gaps, *remarks)
     if missing / total > limit:
-        return judged(ElementStatus.FAIL, because("omission.fail", **fields), *gaps, *remarks)
+        certain = sum(row.missing_least for row in known if not row.hidden)
+        failed = certain / total > limit
+        status = ElementStatus.FAIL if failed else ElementStatus.UNDECIDED
+        why = (because("omission.fail", **fields),) if failed else _open(known, fields)
+        return judged(status, *why, *gaps, *remarks)
     if gaps:
         return judged(ElementStatus.UNDECIDED, *gaps, *remarks)
     return judged(ElementStatus.PASS, because("omission.pass", **fields), *remarks)
+
+
+def _open(known: list[Balance], fields: dict[str, object]) -> tuple[Reason, ...]:
+    """Why features that were not counted may be drawn all the same."""
+    short = [row for row in known if row.missing]
+    why = []
+    if several := [(row, row.pieces) for row in short if row.missing_least < row.missing]:
+        least = sum(row.missing_least for row in known)
+        why.append(interval("omission.interval", several, least=least, **fields))
+    if layers := sorted({layer for row in short for layer in row.hidden}):
+        why.append(because("omission.hidden-layers", layers=layers[:10], n=len(layers), **fields))
+    return tuple(why)

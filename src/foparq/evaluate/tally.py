@@ -18,6 +18,7 @@ from foparq.profile.schema import ElementSpec
 #: why a rule did not run, and its sentence
 _BROKEN = {
     "crashed": "checks.crashed", "unit-unknown": "checks.unit-unknown", "unit-doubtful": "checks.unit-doubtful",
+    "plane-doubtful": "checks.plane-doubtful",
 }  # fmt: skip
 NOTHING = "nothing-to-check"  #: the rule has nothing to look at: no fault can hide there
 

@@ -8,6 +8,7 @@ from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
 from foparq.findings.outcome import Status
 from foparq.model.delivery import SourceStatus
+from foparq.model.drawing import Drawing
 from foparq.profile.schema import Profile
 
 _OPEN = set(ElementStatus) - {ElementStatus.PASS, ElementStatus.FAIL}
@@ -50,13 +51,25 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element], *,
     others = [element.id for element in elements if element not in required]
     if others:
         why.append(because("verdict.not-required", elements=others))
-    remarks = _together(element.why[1:] for element in required)
+    remarks = _together(element.why[1:] for element in required) + _hidden(evidence)
     return QualityReport(verdict=Verdict.ACCEPTED, why=(*why, *remarks), elements=tuple(elements))
 
 
 def _tolerated(element: Element) -> bool:
     """Faults were found and the limit allows them: an acceptance must say so."""
     return element.unit == "1" and element.comparison == "<=" and bool(element.value)
+
+
+def _hidden(evidence: Evidence) -> list[Reason]:
+    """What is in the drawings and nobody sees: an acceptance says that it was not checked."""
+    layers = [layer for drawing in evidence.delivery.drawings for layer in _hidden_layers(drawing)]
+    return [because("verdict.hidden", n=len(layers), layers=sorted(set(layers)))] if layers else []
+
+
+def _hidden_layers(drawing: Drawing) -> list[str]:
+    items = drawing.items
+    layers: list[str] = items.layer[~items.visible & ~items.paper].tolist()
+    return layers
 
 
 def _together(groups: Iterable[Sequence[Reason]]) -> list[Reason]:

@@ -1,17 +1,35 @@
 # SPDX-License-Identifier: MIT
 """How many features of each class were delivered."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+Counts = NDArray[np.intp]
+
+
+def _left_out() -> Counts:
+    return np.empty(0, dtype=np.intp)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FeatureCounts:
-    """Delivered features by class and facade, n rows ordered by both."""
+    """Delivered features by class and facade, n rows ordered by both.
+
+    Nobody wrote into the drawing where one feature ends and the next begins. ``count`` is the natural reading and the
+    fewest features there may be; ``most`` and ``pieces`` are the most.
+    """
 
     feature_class: NDArray[np.object_]  #: (n,) ``"window"``
     facade: NDArray[np.object_]  #: (n,) ``"N"``; ``""`` if the drawing names none
-    count: NDArray[np.intp]  #: (n,)
+    count: Counts  #: (n,)
+    most: Counts = field(default_factory=_left_out)  #: (n,) without nesting, every block one; left out: ``count``
+    pieces: Counts = field(default_factory=_left_out)  #: (n,) blocks that may hold several opened; left out: ``most``
     unmapped: tuple[tuple[str, int], ...] = ()  #: layers that no class is bound to, with their items: not assessed
+    hidden: tuple[tuple[str, str, str], ...] = ()  #: class, facade and layer of items that nobody sees
+
+    def __post_init__(self) -> None:
+        for name, instead in (("most", "count"), ("pieces", "most")):
+            if not len(getattr(self, name)):
+                object.__setattr__(self, name, getattr(self, instead))

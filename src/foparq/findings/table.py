@@ -71,7 +71,21 @@ def join_findings(tables: Sequence[Findings]) -> Findings:
             columns["key"][n],
         ),
     )
-    return Findings(**{name: column[order] for name, column in columns.items()})
+    columns = {name: column[order] for name, column in columns.items()}
+    columns["key"] = _told_apart(columns["key"])
+    return Findings(**columns)
+
+
+def _told_apart(keys: Texts) -> Texts:
+    """Keys, numbered where two drawings gave the same one."""
+    if len(set(keys.tolist())) == len(keys):
+        return keys
+    seen: dict[str, int] = {}
+    unique = keys.copy()
+    for n, key in enumerate(keys):
+        seen[key] = seen.get(key, 0) + 1
+        unique[n] = key if seen[key] == 1 else f"{key}-{seen[key]}"
+    return unique
 
 
 def finding_keys(rule: str, layer: Texts, item: Texts, other: Texts, places: Reals, grid: float) -> Texts:

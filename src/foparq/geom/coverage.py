@@ -19,10 +19,10 @@ _POLYGON = shapely.GeometryType.POLYGON
 
 
 class AreaOverlaps(NamedTuple):
-    """Pairs of areas that cover a place twice, k rows in order of (later, earlier)."""
+    """Pairs of areas that cover a place twice, k rows."""
 
-    earlier: Index  #: (k,)
-    later: Index  #: (k,)
+    larger: Index  #: (k,)
+    smaller: Index  #: (k,) the one at fault; of equals the later
     common: Geometries  #: (k,) polygon or polygons
     area: Reals  #: (k,) square metres
 
@@ -59,8 +59,14 @@ def area_overlaps(areas: Geometries, *, least: float) -> AreaOverlaps:
     common = shapely.intersection(local[i], local[j])
     area = shapely.area(common)
     over = np.flatnonzero(area > least + _slack(areas) * shapely.length(common) + 1e-9 * least)
-    over = over[np.lexsort((i[over], j[over]))]
-    return AreaOverlaps(i[over], j[over], _moved(_polygons_only(common[over]), origin), area[over])
+    # Whichever comes first in the file, the smaller of two areas is the one at fault.
+    size = np.round(shapely.area(local), 9)
+    larger = (size[j] > size[i])[over]
+    first, second = np.where(larger, j[over], i[over]), np.where(larger, i[over], j[over])
+    order = np.lexsort((first, second))
+    return AreaOverlaps(
+        first[order], second[order], _moved(_polygons_only(common[over][order]), origin), area[over][order]
+    )
 
 
 def coverage_gaps(areas: Geometries, *, coincide: float, most: float) -> Gaps:

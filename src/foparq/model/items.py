@@ -2,7 +2,7 @@
 """The items of one drawing, as columns of equal length."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from enum import StrEnum
 from typing import Any
 
@@ -14,6 +14,7 @@ from foparq.model.packing import pack_geometry, pack_texts, unpack_geometry, unp
 Geometries = NDArray[np.object_]  #: shapely geometries
 Texts = NDArray[np.object_]  #: str
 Flags = NDArray[np.bool_]
+INSERT_END, FIELD_END = "\x1e", "\x1f"  #: end one insert, and one word on it, in ``Items.holders``
 Index = NDArray[np.intp]
 Reals = NDArray[np.float64]
 
@@ -48,8 +49,16 @@ class Items:
     closed: Flags  #: (n,) the file's own closed flag; whether the ends meet is a matter of geometry
     visible: Flags  #: (n,) false on off or frozen layers, for invisible entities and inside paper space
     paper: Flags  #: (n,) true in paper space
+    #: (n,) the inserts that hold the item, from the outermost inward, in words of :class:`Holder`; each cell of an
+    #: array is an insert of its own. Left out: made of ``inserts``, with layers and blocks unknown.
+    holders: Texts = field(default_factory=lambda: np.empty(0, dtype=object))
 
     def __post_init__(self) -> None:
+        if len(self.geometry) and not len(self.holders):
+            known = {chain: _unnamed(chain) for chain in set(self.inserts.tolist())}
+            holders: Texts = np.empty(len(self.inserts), dtype=object)
+            holders[:] = [known[chain] for chain in self.inserts.tolist()]
+            object.__setattr__(self, "holders", holders)
         for column in self._columns():
             if len(column) != len(self.geometry):
                 raise ValueError("columns of unequal length")
@@ -80,7 +89,28 @@ class Items:
         self.__post_init__()
 
 
-_TEXTS = ("layer", "kind", "role", "item", "handle", "inserts")
+_TEXTS = ("layer", "kind", "role", "item", "handle", "inserts", "holders")
+
+
+@dataclass(frozen=True, slots=True)
+class Holder:
+    """One insert that holds an item."""
+
+    name: str  #: unique within the definition it stands in: handle or position, with the cell of an array
+    layer: str  #: layer it stands on; where that is layer 0, the layer of the insert around it
+    block: str  #: block it inserts, ``""`` if unknown
+
+    def __str__(self) -> str:
+        return f"{self.name}{FIELD_END}{self.layer}{FIELD_END}{self.block}{INSERT_END}"
+
+
+def holders_of(text: str) -> tuple[Holder, ...]:
+    """Inserts that one entry of ``Items.holders`` tells, from the outermost inward."""
+    return tuple(Holder(*one.split(FIELD_END)) for one in text.split(INSERT_END)[:-1])
+
+
+def _unnamed(chain: str) -> str:
+    return "".join(str(Holder(handle, "", "")) for handle in chain.split("/")) if chain else ""
 
 
 def no_items() -> Items:
@@ -90,5 +120,5 @@ def no_items() -> Items:
     return Items(
         geometry=text.copy(), layer=text.copy(), kind=text.copy(), role=text.copy(), item=text.copy(),
         handle=text.copy(), inserts=text.copy(), colour=np.zeros(0, dtype=np.int32),
-        closed=flag.copy(), visible=flag.copy(), paper=flag.copy(),
+        closed=flag.copy(), visible=flag.copy(), paper=flag.copy(), holders=text.copy(),
     )  # fmt: skip

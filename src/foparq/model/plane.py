@@ -25,7 +25,7 @@ class Plane:
     Parameters
     ----------
     name : str
-        ``"xy"``, ``"xz"``, ``"yz"``, ``"fit"`` or ``"given"``.
+        ``"xy"``, ``"xz"``, ``"yz"``, ``"fit"`` or ``"given"``; ``"assumed"``: xy, because nobody stated a plane.
     origin : tuple = (x, y, z)
         In file coordinates, drawing units.
     right, up : tuple = (x, y, z)
@@ -65,13 +65,13 @@ class Plane:
         return lifted
 
 
-def plane_of(stated: str | tuple[tuple[float, float, float], ...], geometry: NDArray[np.object_]) -> Plane:
+def plane_of(stated: str | tuple[tuple[float, float, float], ...] | None, geometry: NDArray[np.object_]) -> Plane:
     """Plane as the manifest states it, or fitted to the items.
 
     Parameters
     ----------
-    stated : str or three triples
-        ``"xy"``, ``"xz"``, ``"yz"``, ``"fit"``, or origin and two axes.
+    stated : str, three triples or None
+        ``"xy"``, ``"xz"``, ``"yz"``, ``"fit"``, or origin and two axes; ``None`` if nobody says: xy is assumed.
     geometry : (n,) shapely geometries
         The linework, used to choose an origin near it and to fit.
 
@@ -92,12 +92,12 @@ def plane_of(stated: str | tuple[tuple[float, float, float], ...], geometry: NDA
     """
     points = _vertices(geometry)
     corner = np.floor(points.min(axis=0)) if len(points) else np.zeros(3)
-    if isinstance(stated, str) and stated in _NAMED:
-        right, up = _NAMED[stated]
+    if stated is None or (isinstance(stated, str) and stated in _NAMED):
+        right, up = _NAMED[stated or "xy"]
         depth = np.cross(right, up)
         # Depth is told from zero, as the file has it.
         origin = corner - depth * float(corner @ depth)
-        return Plane(stated, _triple(origin), right, up)
+        return Plane(stated or "assumed", _triple(origin), right, up)
     if stated == "fit":
         return _fitted(points)
     if isinstance(stated, str):
@@ -142,7 +142,7 @@ def _orthonormal(first: Coordinates, second: Coordinates) -> tuple[Coordinates, 
     right = first / np.linalg.norm(first) if np.any(first) else first
     rest = second - right * (second @ right)
     length = np.linalg.norm(rest)
-    if not np.any(first) or length <= 1e-9 * np.linalg.norm(second):
+    if not np.isfinite(rest).all() or not np.any(first) or length <= 1e-9 * np.linalg.norm(second):
         raise ManifestError(
             "manifest.plane-axes", value=[first.tolist(), second.tolist()], example="[[0,0,0],[1,0,0],[0,0,1]]"
         )

@@ -30,6 +30,7 @@ _TOP_KEYS = {
 }
 #: a right example for a key, shown when its value is wrong
 _EXAMPLES = {
+    "drawing": "[[drawing]]",
     "areas": 'areas = ["REVESTIMENTO"]',
     "blocks": 'blocks = "explode"',
     "classes": 'classes = { "PORTA*" = "door" }',
@@ -116,7 +117,13 @@ def load_profile(name: str, beside: Path | None = None) -> Profile:
         "path": str(path),
         "sha256": digest.hexdigest(),
     }
-    return _validated(Profile, made, text, ProfileError)
+    profile = _validated(Profile, made, text, ProfileError)
+    if profile.name in shipped_profiles() and path.parent.resolve() != (shipped("rules") / "profiles").resolve():
+        line = text.line(("name",))
+        raise ProfileError(
+            "profile.name-taken", file=str(path), line=line, value=profile.name, example='name = "my-own"'
+        )
+    return profile
 
 
 def load_manifest(path: Path) -> Manifest:
@@ -193,7 +200,9 @@ def _validated(
         return model.model_validate(data)
     except QuantityError as error:
         place = _place_of(data, error.fields.get("value"))
-        fields = {**error.fields, "file": str(text.path), "line": text.line((*prefix, *place))}
+        known = str(place[-1]) if place else ""
+        example = _EXAMPLES.get(known, "").partition(" = ")[2].strip('"') or error.fields.get("example", "")
+        fields = {**error.fields, "example": example, "file": str(text.path), "line": text.line((*prefix, *place))}
         raise kind(f"{error.message}-at", key=".".join(map(str, place)), **fields) from None
     except ValidationError as errors:
         first = errors.errors(include_url=False)[0]
@@ -205,7 +214,7 @@ def _validated(
         if first["type"] == "missing":
             raise kind("toml.missing-key", example=_EXAMPLES.get(key, f"{key} = ..."), **fields) from None
         example = _EXAMPLES.get(key, str(first["msg"]))
-        raise kind("toml.wrong-value", value=first["input"], example=example, **fields) from None
+        raise kind("toml.wrong-value", value=str(first["input"])[:80], example=example, **fields) from None
 
 
 def _resolved(data: object, loc: Sequence[str | int], *, missing: bool) -> tuple[str | int, ...]:

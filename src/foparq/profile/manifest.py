@@ -40,7 +40,7 @@ class DrawingSection(Strict):
 
     path: str
     unit: UnitName | None = None
-    plane: Literal["xy", "xz", "yz", "fit"] | tuple[Triple, Triple, Triple] = "xy"
+    plane: Literal["xy", "xz", "yz", "fit"] | tuple[Triple, Triple, Triple] | None = None  #: xy where a drawing is flat
     facade: str = ""
     classes: Mapping[str, str] = Field(default_factory=dict)  #: layer pattern to feature class
     areas: tuple[str, ...] = ()  #: layers whose closed lines bound areas that cover without gap or overlap

@@ -80,6 +80,9 @@ class ReadingSpec(Strict):
     hidden: Literal["leave", "check"] = "leave"  #: ``check``: off and frozen layers are looked at too
 
 
+_ENDS = ("undershoot", "overshoot", "free-end")  #: rules that ask whether an end lies on a curve
+
+
 class Profile(Strict):
     """A product specification."""
 
@@ -94,4 +97,14 @@ class Profile(Strict):
     checks: tuple[CheckSpec, ...]
     elements: tuple[ElementSpec, ...] = ()
     path: str = ""  #: file it came from
+
     sha256: str = ""  #: of that file, and of the one it extends
+
+    def chord_distance(self, scale: float | None) -> float:
+        """Greatest distance between a curve and its chords, metres.
+
+        The stated sagitta, or a quarter of the finest ``coincide`` if that is less: a line that ends on a circle must
+        not stop beside the chord.
+        """
+        finest = [spec.tolerances["coincide"].si(scale) / 4 for spec in self.checks if spec.rule in _ENDS]
+        return min([self.reading.sagitta.si(scale), *(length for length in finest if length > 0)])

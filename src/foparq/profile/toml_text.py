@@ -15,6 +15,9 @@ _ARRAY = re.compile(r"^\s*\[\[\s*(?P<path>[^\]]+?)\s*\]\]")
 _KEY = re.compile(r"^\s*(?P<key>\"[^\"]*\"|'[^']*'|[A-Za-z0-9_.-]+)\s*=")
 _PLACE = re.compile(r"\(at line (\d+), column (\d+)\)")
 
+_SHOWN = 80  #: characters of a wrong line that a message repeats
+_MOST_BYTES = 1_000_000
+
 Place = tuple[str | int, ...]
 
 
@@ -53,7 +56,10 @@ def read_toml(path: Path, kind: type[UsageError]) -> TomlText:
         Of that kind: if the file cannot be read, is not UTF-8, or is not TOML.
     """
     try:
-        text = path.read_bytes().decode("utf-8-sig")
+        data_bytes = path.read_bytes()
+        if len(data_bytes) > _MOST_BYTES:
+            raise kind("toml.too-large", file=str(path), value=len(data_bytes), limit=_MOST_BYTES)
+        text = data_bytes.decode("utf-8-sig")
     except OSError as error:
         raise kind("toml.unreadable", file=str(path), value=error.strerror or str(error)) from None
     except UnicodeDecodeError as error:
@@ -64,8 +70,16 @@ def read_toml(path: Path, kind: type[UsageError]) -> TomlText:
         found = _PLACE.search(str(error))
         line = int(found[1]) if found else len(text.splitlines())
         shown = text.splitlines()[line - 1].strip() if 0 < line <= len(text.splitlines()) else ""
-        raise kind("toml.syntax", file=str(path), line=line, value=shown, example='unit = "m"') from None
+        raise kind("toml.syntax", file=str(path), line=line, value=shown[:_SHOWN], example=_quoted(shown)) from None
     return TomlText(path, data, _index(text))
+
+
+def _quoted(line: str) -> str:
+    """The line as it would be right, if all it lacks is quotes; else any right line."""
+    key, equals, value = line.partition("=")
+    value = value.split("#")[0].strip().strip("\"'“”").replace("\\", "/")
+    plain = _KEY.match(line) is not None and value and not value.startswith(("[", "{"))
+    return f'{key.strip()} = "{value[:_SHOWN]}"' if equals and plain else 'unit = "m"'
 
 
 def _index(text: str) -> dict[Place, int]:

@@ -64,8 +64,10 @@ def unit_of(systems: tuple[str, ...], bounds: tuple[float, float, float, float],
         else _Said(header=", ".join(describe(text) for text in systems if text))
     )
     if stated is not None:
+        # Layers in different systems lie elsewhere from each other, whatever their unit is.
+        metres = parse_length_unit(stated) if len(systems) <= 1 else None
         return DrawingUnit(
-            metres=parse_length_unit(stated), name=stated, origin=UnitOrigin.STATED,
+            metres=metres, name=stated, origin=UnitOrigin.STATED,
             header=said.header, header_metres=said.metres, stretch=said.stretch,
         )  # fmt: skip
     return DrawingUnit(

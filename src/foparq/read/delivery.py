@@ -103,8 +103,8 @@ def read_delivery(
     features = _table(intake, root, "features", manifest.features, lambda path, _: read_feature_list(path))
     _unnamed(intake, root)
     delivery = Delivery(
-        title=manifest.delivery.title, sources=tuple(intake.sources), drawings=tuple(intake.drawings),
-        checkpoints=checkpoints, distances=distances, features=features,
+        title=manifest.delivery.title or root.resolve().name, sources=tuple(intake.sources),
+        drawings=tuple(intake.drawings), checkpoints=checkpoints, distances=distances, features=features,
     )  # fmt: skip
     return delivery, tuple(intake.crashes)
 
@@ -115,7 +115,7 @@ def read_loose(
     profile: Profile,
     scale: float | None,
     unit: str | None,
-    plane: str,
+    plane: str | None,
     areas: tuple[str, ...] = (),
     progress: Progress | None = None,
 ) -> tuple[Delivery, tuple[str, ...]]:
@@ -129,7 +129,7 @@ def read_loose(
         As for :func:`read_delivery`.
     unit : str or None
         What one drawing unit is in all of them.
-    plane : str
+    plane : str or None
         ``"xy"``, ``"xz"``, ``"yz"`` or ``"fit"``, for all of them.
     areas : tuple of str
         Patterns of the layers whose closed lines bound areas.
@@ -194,11 +194,11 @@ def _drawing(intake: _Intake, section: DrawingSection, name: str, find: Callable
     intake.tell(name)
     source = Source(path=name, role="drawing", sha256="", bytes=0, status=SourceStatus.REFUSED)
     limits = intake.profile.limits
-    sagitta = intake.profile.reading.sagitta.si(intake.scale)
+    sagitta = intake.profile.chord_distance(intake.scale)
     path = None
     try:
         path = find()
-        intake.taken.add(path)
+        _take_once(intake, path, name)
         source = _identified(source, path, limits.bytes)
         if source.status is SourceStatus.MISSING:
             intake.sources.append(source)
@@ -226,6 +226,13 @@ def _drawing(intake: _Intake, section: DrawingSection, name: str, find: Callable
         intake.drawings.append(_joined(raw, section, name))
     if path is not None:
         _companions(intake, name, path)
+
+
+def _take_once(intake: _Intake, path: Path, name: str) -> None:
+    # Counted twice, what is missing would look complete.
+    if path.resolve() in intake.taken:
+        raise ManifestError("manifest.drawing-twice", value=name)
+    intake.taken.add(path.resolve())
 
 
 def _companions(intake: _Intake, name: str, path: Path) -> None:

@@ -98,6 +98,7 @@ class Chunk:
     handle: Texts  #: (n,)
     item: Texts  #: (n,)
     inserts: Texts  #: (n,)
+    holders: Texts  #: (n,)
     colour: Integers  #: (n,)
     closed: Flags  #: (n,)
     visible: Flags  #: (n,)
@@ -169,6 +170,7 @@ class Columns:
             item=_unique(joined["item"]),
             handle=joined["handle"],
             inserts=joined["inserts"],
+            holders=joined["holders"],
             colour=joined["colour"],
             closed=joined["closed"],
             visible=joined["visible"],

@@ -7,9 +7,11 @@ the cost grows with the items made and not with the ways they are nested.
 
 from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
+from dataclasses import replace
 
 import numpy as np
 
+from foparq.model.items import Holder
 from foparq.read.dxf_columns import Reals
 from foparq.read.dxf_content import MODEL, Content, Insert
 from foparq.read.dxf_curves import axes, cos_sin
@@ -43,7 +45,7 @@ def place_contents(
     """
     unmoved = Places(
         matrix=None, layer=np.zeros(1, dtype=np.int32), hidden=np.zeros(1, dtype=bool),
-        inserts=texts([""]), item=texts([""]),
+        inserts=texts([""]), item=texts([""]), holders=texts([""]),
     )  # fmt: skip
     waiting: dict[str, list[Places]] = {MODEL: [unmoved]}
     for name in order:
@@ -54,13 +56,13 @@ def place_contents(
         content = contents[name]
         builder.place(content.entities, places)
         _place_dimensions(content.dimensions, places, builder)
-        for insert in content.inserts:
+        for position, insert in enumerate(content.inserts, 1):
             if insert.block in cyclic or (name == MODEL and insert.block in refused):
                 builder.skip("block-bomb", insert.common, places)
                 continue
             if insert.facts.clipped:
                 builder.skip("xclip-ignored", insert.common, places)
-            within = _placed(insert, places, contents[insert.block].base, builder)
+            within = _placed(insert, position, places, contents[insert.block].base, builder)
             waiting.setdefault(insert.block, []).append(within)
             if insert.attributes:
                 builder.place(insert.attributes, _beside(insert, places, within))
@@ -75,22 +77,28 @@ def _join(placed: list[Places]) -> Places:
         hidden=np.concatenate([places.hidden for places in placed]),
         inserts=np.concatenate([places.inserts for places in placed]),
         item=np.concatenate([places.item for places in placed]),
+        holders=np.concatenate([places.holders for places in placed]),
     )
 
 
-def _placed(insert: Insert, outer: Places, base: tuple[float, float, float], builder: Builder) -> Places:
+def _placed(insert: Insert, position: int, outer: Places, base: tuple[float, float, float], builder: Builder) -> Places:
     own, cells = _matrices(insert.facts, base)
     matrix = own if outer.matrix is None else _after(outer.matrix, own)
     effective = builder.effective(insert.common, outer)
     hidden = outer.hidden | insert.common.invisible | builder.layers.frozen[effective]
     handle = builder.handle(insert.common)
     numbers = texts([f"{handle}/"] if cells == 1 else [f"{handle}:{cell + 1}/" for cell in range(cells)])
+    # A file without handles leaves the position in the definition as the only name.
+    name = handle or f"#{position}"
+    names = [name] if cells == 1 else [f"{name}:{cell + 1}" for cell in range(cells)]
+    held = [str(Holder(one, builder.layers.names[on], insert.block)) for on in effective.tolist() for one in names]
     return Places(
         matrix=matrix,
         layer=np.repeat(effective, cells),
         hidden=np.repeat(hidden, cells),
         inserts=np.repeat(outer.inserts + f"{handle}/", cells),
         item=np.repeat(outer.item, cells) + np.tile(numbers, len(outer)),
+        holders=np.repeat(outer.holders, cells) + texts(held),
     )
 
 
@@ -125,7 +133,7 @@ def _beside(insert: Insert, outer: Places, within: Places) -> Places:
     turned, _ = _matrices(insert.facts, (0.0, 0.0, 0.0))
     own[:, :, 3] = turned[:, :, 3] - turned[:1, :, 3]
     matrix = own if outer.matrix is None else _after(outer.matrix, own)
-    return Places(matrix=matrix, layer=within.layer, hidden=within.hidden, inserts=within.inserts, item=within.item)
+    return replace(within, matrix=matrix)
 
 
 def _place_dimensions(dimensions: list[Lettered], places: Places, builder: Builder) -> None:

@@ -20,6 +20,7 @@ from foparq.read.sniff import Format, format_of
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _BROKEN: tuple[type[Exception], ...] = (*LEAKS, OSError)
+_SECTION = re.compile(rb"(?:^|\n)[ \t]*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n[ \t]*2[ \t]*\r?\n[ \t]*(\w+)")
 _NEAR_LINE = re.compile(r"near line:? (\d+)")
 _TAIL = 256  #: bytes within which the end marker must stand
 _R12 = "AC1009"
@@ -63,6 +64,8 @@ def load_document(path: Path, most_bytes: int) -> Loaded:
             if not binary:
                 _refuse_truncated(path)
             document, repairs = _recover(path, error)
+    if not binary:
+        repairs += _second_sections(path)
     return Loaded(document, repairs, None if binary else _written_handles(path, document))
 
 
@@ -80,6 +83,13 @@ def _sniff(path: Path, most_bytes: int) -> bool:
             return stream.read(len(_BINARY)) == _BINARY
     except OSError as error:
         raise UnreadableError("dxf.cannot-open", file=file, reason=error.strerror or str(error)) from error
+
+
+def _second_sections(path: Path) -> tuple[Repair, ...]:
+    # A reader takes the last of two sections of one name and forgets the first: half a drawing would pass for all.
+    names = _SECTION.findall(path.read_bytes())
+    twice = sorted({name.decode("ascii", "replace") for name in names if names.count(name) > 1})
+    return tuple(Repair(code="SECTION_TWICE", detail=f"section {name} occurs more than once") for name in twice)
 
 
 def _refuse_truncated(path: Path) -> None:

@@ -42,6 +42,7 @@ class Places:
     hidden: Flags  #: (c,) hidden altogether
     inserts: Texts  #: (c,) handles of the inserts, each followed by ``/``
     item: Texts  #: (c,) the same with the number of the cell in arrays
+    holders: Texts  #: (c,) as in ``Items.holders``
 
     def __len__(self) -> int:
         return len(self.layer)
@@ -50,7 +51,7 @@ class Places:
         """The chosen placements."""
         return Places(
             matrix=None if self.matrix is None else self.matrix[rows], layer=self.layer[rows], hidden=self.hidden[rows],
-            inserts=self.inserts[rows], item=self.item[rows],
+            inserts=self.inserts[rows], item=self.item[rows], holders=self.holders[rows],
         )  # fmt: skip
 
 
@@ -118,6 +119,7 @@ class Builder:
             # A file without handles leaves the position in its definition as the only name.
             item=texts([handle or f"#{n}" for handle, (n, _, _) in zip(handles, drawn, strict=True)]),
             inserts=texts([""] * len(drawn)),
+            holders=texts([""] * len(drawn)),
             colour=np.array([common.colour for _, common, _ in drawn], dtype=np.int32),
             closed=np.array([shape.closed for _, _, shape in drawn], dtype=bool),
             visible=np.array([not common.invisible for _, common, _ in drawn], dtype=bool),
@@ -166,6 +168,7 @@ def _copy(sketch: Chunk, places: Places, builder: Builder) -> None:
             handle=np.tile(sketch.handle, c),
             item=np.repeat(places.item, n) + np.tile(sketch.item, c),
             inserts=np.repeat(texts([chain.rstrip("/") for chain in places.inserts]), n),
+            holders=np.repeat(places.holders, n),
             colour=np.tile(sketch.colour, c),
             closed=np.tile(sketch.closed, c),
             visible=shown & ~builder.layers.hidden[layer],

@@ -2,7 +2,7 @@
 """Features of a GIS layer as items: one item a part."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 import shapely
@@ -78,7 +78,7 @@ def items_of(layer: Layer, *, prefix: str) -> tuple[Items, tuple[Skipped, ...]]:
     return Items(
         geometry=parts, layer=names, kind=kinds, role=_mapped(kinds, _ROLES), item=item, handle=handle,
         inserts=np.full(len(parts), "", dtype=object), colour=np.full(len(parts), _BY_LAYER, dtype=np.int32),
-        closed=_closed(parts), visible=~paper, paper=paper,
+        closed=_closed(parts), visible=~paper, paper=paper, holders=np.full(len(parts), "", dtype=object),
     ), skipped  # fmt: skip
 
 
@@ -86,7 +86,7 @@ def join_items(pieces: list[Items]) -> Items:
     """Rows of several tables of items, one after the other."""
     if not pieces:
         return no_items()
-    columns = ("geometry", "layer", "kind", "role", "item", "handle", "inserts", "colour", "closed", "visible", "paper")
+    columns = [column.name for column in fields(Items)]
     return Items(**{name: np.concatenate([getattr(piece, name) for piece in pieces]) for name in columns})
 
 

@@ -61,6 +61,9 @@ def survey_folder(folder: Path, profile: Profile) -> Survey:
     tables: dict[str, tuple[str, ...]] = {}
     others: list[str] = []
     for name in names:
+        if not (folder / name).is_file():
+            others.append(name)
+            continue
         role = _table_role(folder / name)
         if role:
             tables[role] = (*tables.get(role, ()), name)
@@ -96,7 +99,7 @@ def _drawing(path: Path, profile: Profile) -> Drawing | None:
         format_of(path)
     except (InputError, OSError):
         return None
-    delivery, _ = read_loose([path], profile=profile, scale=_SCALE, unit=None, plane="xy")
+    delivery, _ = read_loose([path], profile=profile, scale=_SCALE, unit=None, plane=None)
     unread = {SourceStatus.REFUSED, SourceStatus.MISSING}
     if any(source.status in unread for source in delivery.sources) or not delivery.drawings:
         return None

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """All report files of one audit: written aside, complete, then moved into place."""
 
+import errno
 import os
 import shutil
 import tempfile
@@ -81,6 +82,9 @@ def write_reports(
             (aside / LOG).write_text("\n".join(log), encoding="utf-8")
         for path in aside.iterdir():
             _to_disk(path)
+        for path in aside.iterdir():
+            if (folder / path.name).is_dir():  # told before the first file is replaced
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(folder / path.name))
         (folder / LOG).unlink(missing_ok=True)
         return [path.replace(folder / path.name) for path in sorted(aside.iterdir())]
     except OSError as error:

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 """``findings.gpkg``: the findings as points, lines and areas in file coordinates, styled for QGIS."""
 
+import errno
+import shutil
 import sqlite3
+import tempfile
 from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass
@@ -79,7 +82,17 @@ def write_findings_gpkg(record: AuditRecord, path: Path) -> None:
     depth 0 where a layer also holds places with depth; the column ``z`` keeps the difference. At most
     ``record.written`` findings of each rule are written.
     """
-    path.unlink(missing_ok=True)
+    # GDAL takes no path with line breaks or undecodable letters: the file is made where the path is plain.
+    with tempfile.TemporaryDirectory(prefix="foparq-") as plain:
+        made = Path(plain) / "findings.gpkg"
+        try:
+            _write_database(record, made)
+        except (pyogrio.errors.DataSourceError, pyogrio.errors.DataLayerError, sqlite3.Error) as error:
+            raise OSError(errno.EIO, str(error), str(path)) from error
+        shutil.copyfile(made, path)
+
+
+def _write_database(record: AuditRecord, path: Path) -> None:
     rows = written_rows(record)
     shapes, dimension = _by_dimension(record.findings.where[rows])
     columns = _columns(record, rows)

@@ -120,7 +120,7 @@ def _figure(words: Words, listing: Listing, picture: Picture, suffix: str) -> Fi
     about: dict[str, Any] = {
         "items": words.count(len(drawing.items)),
         "layers": words.count(len(picture.layers)),
-        "plane": drawing.plane.name,
+        "plane": "xy" if drawing.plane.name == "assumed" else drawing.plane.name,
         "unit": drawing.unit.name or words("report.drawing.unit-unknown"),
         "facade": drawing.facade,
     }

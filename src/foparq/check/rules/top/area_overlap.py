@@ -24,11 +24,11 @@ def area_overlap(areas: Areas, *, least: SquareMetres) -> Hits:
     Returns
     -------
     Hits
-        One a pair: row is the later of the two rows, other the earlier; place is the common polygon, size its area.
+        One a pair: row is the smaller of the two, other the larger; place is the common polygon, size its area.
 
     Notes
     -----
     O(n log n + pairs that touch). Does not look at depth. A place that three areas cover is found in three pairs.
     """
     found = area_overlaps(areas.geometry, least=least)
-    return hits(found.later, found.common, found.area, found.earlier)
+    return hits(found.smaller, found.common, found.area, found.larger)

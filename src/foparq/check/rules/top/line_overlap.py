@@ -15,7 +15,8 @@ def line_overlap(lines: Lines, *, coincide: Metres) -> Hits:
     Two segments share the common interval of their projections on the longer one, if they are within ``coincide`` of
     each other at both its ends, in the plane and in depth, and turned against each other by less than one in four. Two
     lines are at fault if the intervals of all their segments together are longer than ``coincide``: a line of many
-    vertices is found along a long straight one.
+    vertices is found along a long straight one. The stretch begins or ends at an end or a corner of one of them: curves
+    that touch at a tangent come near and part again in the open, and are no overlap.
 
     Parameters
     ----------
@@ -27,8 +28,8 @@ def line_overlap(lines: Lines, *, coincide: Metres) -> Hits:
     Returns
     -------
     Hits
-        One a pair: row is the later of the two rows, other the earlier; place is the longest shared piece, size the
-        shared length.
+        One a pair: row is the shorter of the two, other the longer (of a group that overlaps each other, all but the
+        longest are at fault); place is the longest shared piece, size the shared length.
 
     Notes
     -----
@@ -37,4 +38,4 @@ def line_overlap(lines: Lines, *, coincide: Metres) -> Hits:
     """
     table = lines.polylines
     found = line_overlaps(table, lines.bounds, coincide=coincide)
-    return hits(found.later, table.chords(found.start, found.end), found.length, found.earlier)
+    return hits(found.line, table.chords(found.start, found.end), found.length, found.other)

@@ -1,0 +1,360 @@
+# SPDX-License-Identifier: MIT
+"""What is one feature: counted from drawings whose windows anybody can count."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+import shapely
+from ezdxf.document import Drawing as Document
+from ezdxf.layouts import BaseLayout
+from tests.evaluate.deliveries import drawn, judge, listed, messages, spec
+
+from foparq.check.delivered_features import count_features
+from foparq.evaluate.quality import ElementStatus
+from foparq.findings.counts import FeatureCounts
+from foparq.model.drawing import Drawing, DrawingUnit, Reading, UnitOrigin
+from foparq.model.items import Holder, Items, Role, holders_of
+from foparq.model.plane import plane_of
+from foparq.profile.schema import LimitsSpec
+from foparq.read.dxf import read_dxf
+
+PASS, FAIL, UNDECIDED = ElementStatus.PASS, ElementStatus.FAIL, ElementStatus.UNDECIDED
+GAP = 0.01
+METRES = DrawingUnit(metres=1.0, name="m", origin=UnitOrigin.STATED)
+WINDOW = {"JANELA*": "window"}
+PLACES = [((n % 10) * 3.0, (n // 10) * 4.0) for n in range(20)]
+
+
+def frame(x: float, y: float, inset: float = 0.0) -> str:
+    return shapely.box(x + inset, y + inset, x + 1 - inset, y + 1.5 - inset).exterior.wkt
+
+
+def drawing(
+    shapes: Sequence[str], *, layer: str | Sequence[str] = "JANELA", role: str = Role.LINE,
+    holders: Sequence[str] | None = None, visible: Sequence[bool] | None = None, facade: str = "N",
+    classes: dict[str, str] | None = None,
+) -> Drawing:  # fmt: skip
+    n = len(shapes)
+
+    def column(values: Sequence[str]) -> np.ndarray:
+        made = np.empty(n, dtype=object)
+        made[:] = values
+        return made
+
+    geometry = column([shapely.from_wkt(shape) for shape in shapes])  # type: ignore[misc]
+    items = Items(
+        geometry=geometry, layer=column([layer] * n if isinstance(layer, str) else layer), kind=column(["LINE"] * n),
+        role=column([role] * n), item=column([str(row) for row in range(n)]), handle=column([""] * n),
+        inserts=column([""] * n), colour=np.full(n, 256, dtype=np.int32), closed=np.zeros(n, dtype=bool),
+        visible=np.array([True] * n if visible is None else visible), paper=np.zeros(n, dtype=bool),
+        holders=column(holders or [""] * n),
+    )  # fmt: skip
+    return Drawing(
+        path="a.dxf", items=items, reading=Reading(), unit=METRES, plane=plane_of("xy", geometry), facade=facade,
+        classes=WINDOW if classes is None else classes,
+    )  # fmt: skip
+
+
+def counted(*drawings: Drawing) -> FeatureCounts:
+    counts = count_features(drawings, gap=GAP)
+    assert counts is not None
+    return counts
+
+
+def interval(*drawings: Drawing) -> tuple[int, int, int]:
+    counts = counted(*drawings)
+    assert counts.feature_class.tolist() == ["window"]
+    return int(counts.count[0]), int(counts.most[0]), int(counts.pieces[0])
+
+
+def verdicts(
+    *drawings: Drawing, required: int = 20, feature_class: str = "window", facade: str = "N"
+) -> tuple[ElementStatus, ElementStatus]:
+    """Commission and omission against a list of windows."""
+    delivery = drawn(*drawings, features=listed((feature_class, facade, required)))
+    report = judge(spec("commission"), spec("omission"), delivery=delivery, counts=counted(*drawings))
+    commission, omission = report.elements
+    return commission.status, omission.status
+
+
+# --- loose linework --------------------------------------------------------------------------------------------------
+
+
+def test_windows_drawn_apart_are_counted_and_have_one_reading() -> None:
+    thing = drawing([frame(*place) for place in PLACES])
+    assert interval(thing) == (20, 20, 20)
+    assert verdicts(thing) == (PASS, PASS)
+
+
+def test_half_of_the_windows_missing_fails_and_five_more_fail() -> None:
+    assert verdicts(drawing([frame(*place) for place in PLACES[:10]])) == (PASS, FAIL)
+    more = [frame(x, 100.0) for x in (0.0, 3.0, 6.0, 9.0, 12.0)]
+    assert verdicts(drawing([*(frame(*place) for place in PLACES), *more])) == (FAIL, PASS)
+
+
+def test_frame_and_glass_are_one_window_or_two() -> None:
+    thing = drawing([frame(*place, inset) for place in PLACES for inset in (0.0, 0.06)])
+    assert interval(thing) == (20, 40, 40)
+    assert verdicts(thing) == (UNDECIDED, PASS)
+    assert verdicts(thing, required=40) == (PASS, UNDECIDED)
+
+
+def test_frames_with_glass_fail_where_no_reading_helps() -> None:
+    thing = drawing([frame(*place, inset) for place in PLACES for inset in (0.0, 0.06)])
+    assert verdicts(thing, required=15) == (FAIL, PASS)
+    assert verdicts(thing, required=60) == (PASS, FAIL)
+
+
+def test_a_reason_names_the_class_and_both_counts() -> None:
+    thing = drawing([frame(*place, inset) for place in PLACES for inset in (0.0, 0.06)])
+    delivery = drawn(thing, features=listed(("window", "N", 20)))
+    (commission,) = judge(spec("commission"), delivery=delivery, counts=counted(thing)).elements
+    assert messages(commission) == ["commission.interval"]
+    assert dict(commission.why[0].fields)["classes"] == ["window / N: 20–40"]
+    assert commission.value == 0.0
+    assert ("surplus-most", 20.0, "items") in commission.parameters
+
+
+def test_twins_at_one_place_count_once_at_least() -> None:
+    twice = drawing([frame(0, 0)] * 2, holders=[str(Holder(name, "JANELA", "J")) for name in "AB"])
+    assert interval(twice) == (1, 2, 2)
+
+
+@pytest.mark.parametrize("depth", [2, 5, 40])
+def test_nesting_has_no_depth_and_no_order(depth: int) -> None:
+    shapes = [frame(x, y, 0.011 * n) for x, y in PLACES for n in range(depth)]
+    expected = (20, 20 * depth, 20 * depth)
+    assert interval(drawing(shapes)) == expected
+    for seed in range(3):
+        order = np.random.default_rng(seed).permutation(len(shapes))
+        assert interval(drawing([shapes[n] for n in order])) == expected
+
+
+def test_what_cannot_be_seen_at_the_scale_is_no_feature() -> None:
+    specks = [f"LINESTRING ({x} {y}, {x + 0.001} {y})" for x, y in PLACES]
+    blocks = [str(Holder(str(n), "JANELA", "J")) for n in range(20)]
+    for thing in (drawing(specks), drawing(specks, holders=blocks)):
+        assert interval(thing) == (0, 0, 0)
+        assert verdicts(thing) == (PASS, FAIL)
+    larger = [f"LINESTRING ({x} {y}, {x + 0.011} {y})" for x, y in PLACES]
+    assert interval(drawing(larger)) == (20, 20, 20)
+
+
+def test_points_are_no_features() -> None:
+    points = drawing([f"POINT ({x} {y})" for x, y in PLACES], role=Role.POINT)
+    assert interval(points) == (0, 0, 0)
+    assert verdicts(points) == (PASS, FAIL)
+
+
+def test_coordinates_that_are_no_numbers_stop_nothing() -> None:
+    thing = drawing([frame(*place) for place in PLACES])
+    geometry = thing.items.geometry.copy()
+    with np.errstate(invalid="ignore"):
+        geometry[:2] = shapely.linestrings([[[np.nan, 0], [1, 1]], [[0, 0], [np.inf, 1]]])
+    assert interval(replace(thing, items=replace(thing.items, geometry=geometry))) == (18, 18, 18)
+
+
+# --- names, drawings, hidden layers ----------------------------------------------------------------------------------
+
+
+def test_case_tells_no_classes_and_no_facades_apart() -> None:
+    thing = drawing(
+        [frame(*place) for place in PLACES], layer=["JANELA"] * 10 + ["VAO"] * 10, facade="n",
+        classes={"JANELA": "window", "VAO": "Window"},
+    )  # fmt: skip
+    assert len(counted(thing).count) == 1
+    assert verdicts(thing, feature_class="WINDOW") == (PASS, PASS)
+    assert verdicts(thing, feature_class="WINDOW", required=30) == (PASS, FAIL)
+
+
+def test_one_facade_in_two_drawings_is_counted_once_or_twice() -> None:
+    thing = drawing([frame(*place) for place in PLACES])
+    detail = drawing([frame(x + 500, y) for x, y in PLACES[:5]])
+    assert interval(thing, detail) == interval(detail, thing) == (20, 25, 25)
+    assert verdicts(thing, detail) == (UNDECIDED, PASS)
+    assert verdicts(thing, detail, required=15) == (FAIL, PASS)
+    assert verdicts(thing, detail, required=40) == (PASS, FAIL)
+
+
+def test_facades_apart_are_never_added() -> None:
+    north, south = (drawing([frame(*place) for place in PLACES], facade=facade) for facade in "NS")
+    assert counted(north, south).count.tolist() == [20, 20]
+    assert counted(north, south).most.tolist() == [20, 20]
+
+
+def test_windows_on_a_hidden_layer_may_be_the_missing_ones() -> None:
+    shapes, layers = [frame(*place) for place in PLACES], ["JANELA"] * 10 + ["JANELA_OFF"] * 10
+    thing = drawing(shapes, layer=layers, visible=[True] * 10 + [False] * 10)
+    assert interval(thing) == (10, 10, 10)
+    assert counted(thing).hidden == (("window", "N", "JANELA_OFF"),)
+    assert verdicts(thing) == (PASS, UNDECIDED)
+    delivery = drawn(thing, features=listed(("window", "N", 20)))
+    (omission,) = judge(spec("omission"), delivery=delivery, counts=counted(thing)).elements
+    assert messages(omission) == ["omission.hidden-layers"]
+    assert dict(omission.why[0].fields)["layers"] == ["JANELA_OFF"]
+
+
+def test_a_hidden_layer_of_another_class_excuses_nothing() -> None:
+    shapes, layers = [frame(*place) for place in PLACES], ["JANELA"] * 10 + ["PORTA"] * 10
+    thing = drawing(
+        shapes, layer=layers, visible=[True] * 10 + [False] * 10, classes={"JANELA": "window", "PORTA": "door"}
+    )
+    assert verdicts(thing) == (PASS, FAIL)
+
+
+def test_parts_of_a_block_that_are_switched_off_hide_no_feature() -> None:
+    shapes = [frame(*place, inset) for place in PLACES[:10] for inset in (0.0, 0.06)]
+    blocks = [str(Holder(str(n // 2), "JANELA", "J")) for n in range(20)]
+    thing = drawing(shapes, holders=blocks, visible=[True, False] * 10)
+    assert counted(thing).hidden == ()
+    assert verdicts(thing) == (PASS, FAIL)
+
+
+# --- blocks ----------------------------------------------------------------------------------------------------------
+
+
+def pane(space: BaseLayout, x: float = 0.0, y: float = 0.0, inset: float = 0.0, layer: str = "0") -> None:
+    corners = shapely.from_wkt(frame(x, y, inset)).coords
+    space.add_lwpolyline(list(corners)[:-1], close=True, dxfattribs={"layer": layer})
+
+
+def read(document: Document, place: Path) -> Drawing:
+    place /= "a.dxf"
+    document.saveas(place)
+    raw = read_dxf(place, limits=LimitsSpec(), sagitta=0.001, unit="m", blocks="explode")
+    items = raw.items
+    return Drawing(
+        path="a.dxf", items=items, reading=raw.reading, unit=METRES, plane=plane_of("xy", items.geometry), facade="N",
+        classes=WINDOW,
+    )  # fmt: skip
+
+
+def test_an_array_of_blocks_is_as_many_windows_as_it_has_cells(tmp_path: Path) -> None:
+    document = ezdxf.new()
+    pane(document.blocks.new("J"))
+    array = {"layer": "JANELA", "row_count": 2, "column_count": 10, "row_spacing": 4, "column_spacing": 3}
+    document.modelspace().add_blockref("J", (0, 0), dxfattribs=array)
+    thing = read(document, tmp_path)
+    assert interval(thing) == (20, 20, 20)
+    assert verdicts(thing) == (PASS, PASS)
+    assert verdicts(thing, required=40) == (PASS, FAIL)
+    assert verdicts(thing, required=15) == (FAIL, PASS)
+
+
+@pytest.mark.parametrize("outer", ["0", "FACHADA"])
+def test_a_facade_that_is_one_block_holds_its_windows(tmp_path: Path, outer: str) -> None:
+    document = ezdxf.new()
+    pane(document.blocks.new("J"))
+    facade = document.blocks.new("FACHADA")
+    for place in PLACES:
+        facade.add_blockref("J", place, dxfattribs={"layer": "JANELA"})
+    document.modelspace().add_blockref("FACHADA", (0, 0), dxfattribs={"layer": outer})
+    thing = read(document, tmp_path)
+    assert interval(thing) == (20, 20, 20)
+    assert verdicts(thing, required=40) == (PASS, FAIL)
+
+
+@pytest.mark.parametrize(("outer", "inner"), [("0", "JANELA"), ("JANELA", "0"), ("JANELA", "JANELA")])
+def test_a_facade_of_loose_windows_in_one_block_is_not_rejected(tmp_path: Path, outer: str, inner: str) -> None:
+    document = ezdxf.new()
+    facade = document.blocks.new("FACHADA")
+    for place in PLACES:
+        pane(facade, *place, layer=inner)
+        pane(facade, *place, inset=0.06, layer=inner)
+    document.modelspace().add_blockref("FACHADA", (0, 0), dxfattribs={"layer": outer})
+    thing = read(document, tmp_path)
+    assert interval(thing) == (1, 1, 20)
+    assert verdicts(thing) == (PASS, UNDECIDED)
+    assert verdicts(thing, required=40) == (PASS, FAIL)
+
+
+@pytest.mark.parametrize("layers", [("CAIXILHO", "VIDRO"), ("JANELA", "VIDRO"), ("0", "JANELA-VIDRO")])
+def test_content_takes_the_class_of_the_insert_that_holds_it(tmp_path: Path, layers: tuple[str, str]) -> None:
+    document = ezdxf.new()
+    block = document.blocks.new("J")
+    pane(block, layer=layers[0])
+    pane(block, x=5.0, layer=layers[1])
+    for x, y in PLACES:
+        document.modelspace().add_blockref("J", (x * 10, y), dxfattribs={"layer": "JANELA"})
+    thing = read(document, tmp_path)
+    assert interval(thing) == (20, 20, 20), "a block on a layer of the class is one feature, whatever it holds"
+    assert counted(thing).unmapped == ()
+    assert verdicts(thing, required=40) == (PASS, FAIL)
+
+
+def test_content_on_a_layer_of_another_class_keeps_it() -> None:
+    held = [str(Holder("A", "PORTA", "P"))] * 2
+    thing = drawing(
+        [frame(0, 0), frame(0, 5)], layer=["FOLHA", "BANDEIRA"], holders=held,
+        classes={"PORTA": "door", "BANDEIRA": "window"},
+    )  # fmt: skip
+    counts = counted(thing)
+    assert dict(zip(counts.feature_class, counts.count, strict=True)) == {"door": 1, "window": 1}
+
+
+def test_the_outermost_insert_with_a_class_wins() -> None:
+    held = str(Holder("A", "0", "F")) + str(Holder("B", "JANELA", "J")) + str(Holder("C", "PORTA", "P"))
+    thing = drawing([frame(0, 0)], layer="CAIXILHO", holders=[held], classes={"PORTA": "door", "JANELA": "window"})
+    counts = counted(thing)
+    assert dict(zip(counts.feature_class, counts.count, strict=True)) == {"door": 0, "window": 1}
+
+
+def test_a_block_that_holds_blocks_of_its_class_is_one_or_as_many() -> None:
+    outer = str(Holder("A", "JANELA", "CONJUNTO"))
+    held = [outer + str(Holder(str(n), "JANELA", "J")) for n in range(20)]
+    thing = drawing([frame(*place) for place in PLACES], holders=held)
+    assert interval(thing) == (1, 20, 20)
+    assert verdicts(thing) == (PASS, UNDECIDED)
+    assert verdicts(thing, required=40) == (PASS, FAIL)
+
+
+def test_half_of_the_blocks_missing_fails_and_five_more_fail() -> None:
+    for n, expected in ((10, (PASS, FAIL)), (20, (PASS, PASS)), (25, (FAIL, PASS))):
+        places = [(x, y + 50 * again) for again in range(2) for x, y in PLACES][:n]
+        shapes = [frame(*place, inset) for place in places for inset in (0.0, 0.06)]
+        held = [str(Holder(str(row // 2), "JANELA", "J")) for row in range(2 * n)]
+        assert verdicts(drawing(shapes, holders=held)) == expected
+
+
+def test_windows_on_a_frozen_insert_layer_may_be_the_missing_ones(tmp_path: Path) -> None:
+    document = ezdxf.new()
+    pane(document.blocks.new("J"))
+    document.layers.add("JANELA").freeze()
+    for place in PLACES:
+        document.modelspace().add_blockref("J", place, dxfattribs={"layer": "JANELA"})
+    thing = read(document, tmp_path)
+    assert interval(thing) == (0, 0, 0)
+    assert verdicts(thing) == (PASS, UNDECIDED)
+
+
+def test_a_reader_tells_cell_layer_and_block_of_every_insert(tmp_path: Path) -> None:
+    document = ezdxf.new()
+    pane(document.blocks.new("J"))
+    outer = document.blocks.new("F")
+    inner = outer.add_blockref("J", (0, 0), dxfattribs={"column_count": 2, "column_spacing": 3})
+    insert = document.modelspace().add_blockref("F", (0, 0), dxfattribs={"layer": "JANELA"})
+    items = read(document, tmp_path).items
+    told = {holders_of(text) for text in items.holders}
+    assert told == {
+        (Holder(insert.dxf.handle, "JANELA", "F"), Holder(f"{inner.dxf.handle}:{cell}", "JANELA", "J"))
+        for cell in (1, 2)
+    }
+    assert set(items.inserts) == {f"{insert.dxf.handle}/{inner.dxf.handle}"}
+
+
+def test_a_misspelt_pattern_is_no_evidence_of_omission() -> None:
+    windows = drawing([frame(x, y) for x, y in PLACES], classes={"JANELAS": "window"})
+    delivery = drawn(windows, features=listed(("window", "N", 20)))
+    (omission,) = judge(spec("omission"), delivery=delivery, counts=counted(windows)).elements
+    assert omission.status is UNDECIDED
+    assert "features.unbound" in messages(omission)
+
+
+def test_a_layer_that_exists_and_is_empty_is_evidence_of_omission() -> None:
+    walls = drawing(["LINESTRING (0 0, 9 0)"], layer="PAREDE")
+    walls = replace(walls, reading=Reading(layers=("PAREDE", "JANELA")))
+    assert verdicts(walls)[1] is FAIL
