@@ -8,7 +8,8 @@ import numpy as np
 from foparq.geom.pairs import meetings
 from foparq.geom.polylines import Flags, Index, Polylines, Reals, summed
 from foparq.geom.segments import shared
-from foparq.geom.stretches import components, join_pieces, longest
+from foparq.geom.stretches import components, longest
+from foparq.geom.tangents import runs_along
 
 
 class Overlaps(NamedTuple):
@@ -37,9 +38,9 @@ def line_overlaps(lines: Polylines, exempt: Flags, *, coincide: float) -> Overla
     Overlaps
         Two segments share the common interval of their projections on the longer one, if they are within ``coincide``
         of each other at both its ends and turned against each other by less than one in four. Pieces are summed a
-        pair. A stretch begins or ends at an end or a corner of one of the two: curves that touch come near and part
-        again in the open, and share nothing. Of a group of lines that overlap each other all but the longest are at
-        fault, so that the order of the lines changes no count; the boundary of an area never is because of a line.
+        pair. Curves that touch at a tangent share nothing, see :func:`foparq.geom.tangents.runs_along`. Of a group of
+        lines that overlap each other all but the longest are at fault, so that the order of the lines changes no
+        count; the boundary of an area never is because of a line.
 
     Notes
     -----
@@ -50,7 +51,7 @@ def line_overlaps(lines: Polylines, exempt: Flags, *, coincide: float) -> Overla
     i, j = meetings(lines, coincide=coincide).along
     run = shared(lines.segments(i), lines.segments(j), within=within)
     kept = np.flatnonzero(~(exempt[lines.line[i]] & exempt[lines.line[j]]) & (run.length > 0))
-    kept = kept[_breaks_off(lines, i[kept], j[kept], run.start[kept], run.end[kept], within)]
+    kept = kept[runs_along(lines, i[kept], j[kept], run.start[kept], run.end[kept], within=within)]
     earlier, later = lines.line[i[kept]], lines.line[j[kept]]
     pair, label = np.unique(later * len(lines) + earlier, return_inverse=True)
     length = summed(label, run.length[kept], len(pair))
@@ -70,45 +71,6 @@ def line_overlaps(lines: Polylines, exempt: Flags, *, coincide: float) -> Overla
         run.start[row][over],
         run.end[row][over],
     )
-
-
-def _breaks_off(lines: Polylines, i: Index, j: Index, start: Reals, end: Reals, within: float) -> Flags:
-    """True (k,) for pieces of a stretch that begins or ends at an end or a corner of a line.
-
-    Where curves touch, they come near and part again in the open: that is a tangent, not an overlap.
-    """
-    sharp = _sharp(lines)
-    breaks = np.zeros(len(i), dtype=bool)
-    for segment in (i, j):
-        for vertex in (lines.first[segment], lines.first[segment] + 1):
-            for place in (start, end):
-                breaks |= sharp[vertex] & (np.hypot(*(lines.plane[vertex] - place).T) <= 2 * within)
-    _, group = np.unique(lines.line[j] * len(lines) + lines.line[i], return_inverse=True)
-    stretch = join_pieces(group, start, end, gap=2 * within).label
-    found = np.zeros(int(stretch.max()) + 1 if len(stretch) else 0, dtype=bool)
-    np.logical_or.at(found, stretch, breaks)
-    return found[stretch]
-
-
-def _sharp(lines: Polylines) -> Flags:
-    """(m,) vertices where a line ends, or turns by more than one in four."""
-    sharp = np.ones(len(lines.coordinates), dtype=bool)
-    step = lines.plane[lines.first + 1] - lines.plane[lines.first]
-    one = np.flatnonzero(lines.line[:-1] == lines.line[1:])
-    two = one + 1
-    vertex = lines.first[two]
-    heads, tails = lines.heads, lines.tails
-    ring = np.flatnonzero((lines.opening <= lines.slack) & (np.diff(lines.segment_offsets) > 1))
-    one = np.concatenate([one, lines.segment_offsets[ring + 1] - 1])
-    two = np.concatenate([two, lines.segment_offsets[ring]])
-    size = lines.step[one] * lines.step[two]
-    along = np.einsum("ij,ij->i", step[one], step[two])
-    smooth = along >= 0.7 * size
-    inner = len(vertex)
-    sharp[vertex[smooth[:inner]]] = False
-    closing = ring[smooth[inner:]]
-    sharp[heads[closing]] = sharp[tails[closing]] = False
-    return sharp
 
 
 def _from_the_longest(lines: Polylines, exempt: Flags, one: Index, two: Index) -> tuple[Index, Index]:

@@ -15,8 +15,11 @@ def line_overlap(lines: Lines, *, coincide: Metres) -> Hits:
     Two segments share the common interval of their projections on the longer one, if they are within ``coincide`` of
     each other at both its ends, in the plane and in depth, and turned against each other by less than one in four. Two
     lines are at fault if the intervals of all their segments together are longer than ``coincide``: a line of many
-    vertices is found along a long straight one. The stretch begins or ends at an end or a corner of one of them: curves
-    that touch at a tangent come near and part again in the open, and are no overlap.
+    vertices is found along a long straight one.
+
+    Curves that touch at a tangent are near each other for a while and share nothing: a stretch counts only if both its
+    ends lie at an end or a corner of one of the lines, or if one does and at least half of the stretch is flush,
+    nearer than a sixteenth of ``coincide``. An arch may spring from a jamb that goes on.
 
     Parameters
     ----------
