@@ -11,11 +11,11 @@ import pytest
 import shapely
 
 from foparq.check.registry import all_rules
-from foparq.model.inputs import Bombs, HiddenItems, LayerNames, Repairs, UnitEvidence, nameless
+from foparq.model.inputs import Bombs, HiddenItems, LayerNames, LayerPatterns, Repairs, UnitEvidence, nameless
 from foparq.units import parse_quantity
 
 CASES = Path(__file__).parents[1] / "cases"
-FACTS = {Repairs, Bombs, HiddenItems, LayerNames, UnitEvidence}
+FACTS = {Repairs, Bombs, HiddenItems, LayerNames, LayerPatterns, UnitEvidence}
 
 
 def fact_cases() -> list[Any]:
@@ -34,8 +34,8 @@ def given(subject: Any, rows: list[dict[str, Any]]) -> Any:
         if field.name == "where":
             values = [shapely.from_wkt(text) for text in values]
         kind = np.intp if field.name == "row" else object
-        numbers = values and all(isinstance(value, float) for value in values)
-        columns[field.name] = np.array(values, dtype=float if numbers else kind)
+        known = next((t for t in (bool, float) if values and all(isinstance(v, t) for v in values)), kind)
+        columns[field.name] = np.array(values, dtype=known)
     return subject(**columns)
 
 

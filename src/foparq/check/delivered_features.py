@@ -13,7 +13,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from foparq.check.inputs import matches
+from foparq.check.inputs import all_layers, matches
 from foparq.findings.counts import FeatureCounts
 from foparq.geom.clusters import clusters
 from foparq.model.drawing import Drawing
@@ -144,8 +144,7 @@ def _add(totals: _Totals, drawing: Drawing, gap: float) -> None:
 
 def _bound_classes(drawing: Drawing) -> list[str]:
     """Classes with a layer of the drawing; a pattern that no layer matches binds nothing: it may be misspelt."""
-    held = {holder.layer for text in set(drawing.items.holders.tolist()) for holder in holders_of(text)}
-    layers = {*drawing.reading.layers, *drawing.items.layer.tolist(), *held}
+    layers = all_layers(drawing)
     return [name for pattern, name in drawing.classes.items() if any(matches(layer, (pattern,)) for layer in layers)]
 
 

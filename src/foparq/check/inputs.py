@@ -16,10 +16,21 @@ from numpy.typing import NDArray
 
 from foparq.check.unit_evidence import unit_evidence
 from foparq.model.drawing import Drawing
-from foparq.model.inputs import Areas, Bombs, Features, HiddenItems, LayerNames, Lines, Named, Repairs, UnitEvidence
-from foparq.model.items import Flags, Geometries, Index, Role
+from foparq.model.inputs import (
+    Areas,
+    Bombs,
+    Features,
+    HiddenItems,
+    LayerNames,
+    LayerPatterns,
+    Lines,
+    Named,
+    Repairs,
+    UnitEvidence,
+)
+from foparq.model.items import Flags, Geometries, Index, Role, holders_of
 
-_FACTS = (Repairs, Bombs, HiddenItems, LayerNames, UnitEvidence)
+_FACTS = (Repairs, Bombs, HiddenItems, LayerNames, LayerPatterns, UnitEvidence)
 _LINE_STRING, _LINEAR_RING, _POLYGON = 1, 2, 3
 _RING_VERTICES = 4
 #: by plane: a sheet narrower than this share of its depth is seen from its edge
@@ -40,6 +51,12 @@ def matching(layers: NDArray[np.object_], patterns: tuple[str, ...]) -> Flags:
     names, inverse = np.unique(layers.astype(str), return_inverse=True)
     hit = np.array([matches(name, patterns) for name in names], dtype=bool)
     return hit[inverse] if len(names) else np.zeros(0, dtype=bool)
+
+
+def all_layers(drawing: Drawing) -> set[str]:
+    """Every layer of a drawing: also the empty ones, and those of inserts."""
+    held = {holder.layer for text in set(drawing.items.holders.tolist()) for holder in holders_of(text)}
+    return {*drawing.reading.layers, *drawing.items.layer.tolist(), *held}
 
 
 @dataclass
@@ -139,7 +156,7 @@ class DrawingInputs:
 
     def examined(self, subject: type) -> bool:
         """Whether an empty input means that the file was looked at and nothing was there to report."""
-        return subject in {Repairs, Bombs, HiddenItems, LayerNames}
+        return subject in {Repairs, Bombs, HiddenItems, LayerNames, LayerPatterns}
 
     def _whole(self, subject: type, layers: tuple[str, ...]) -> Named:
         key = (subject, layers)
@@ -275,10 +292,18 @@ def _layer_names(drawing: Drawing) -> LayerNames:
     )
 
 
+def _layer_patterns(drawing: Drawing) -> LayerPatterns:
+    layers = all_layers(drawing)
+    patterns = sorted({*drawing.classes, *drawing.areas})
+    matched = [any(matches(layer, (pattern,)) for layer in layers) for pattern in patterns]
+    return LayerPatterns(matched=np.array(matched, dtype=bool), **_about_file(patterns, [""] * len(patterns)))
+
+
 _BUILD: dict[type, Callable[[Drawing], Named]] = {
     Repairs: _repairs,
     Bombs: _bombs,
     HiddenItems: _hidden_items,
     LayerNames: _layer_names,
+    LayerPatterns: _layer_patterns,
     UnitEvidence: unit_evidence,
 }

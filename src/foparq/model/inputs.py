@@ -94,6 +94,13 @@ class LayerNames(Named):
 
 
 @dataclass(frozen=True, kw_only=True)
+class LayerPatterns(Named):
+    """Layer patterns that the manifest states for one drawing; one row a pattern, which stands in ``layer``."""
+
+    matched: Flags  #: (n,) true if some layer of the file matches
+
+
+@dataclass(frozen=True, kw_only=True)
 class UnitEvidence(Named):
     """Statements about the drawing unit other than the one in use; one row a statement."""
 
