@@ -5,6 +5,7 @@ Published: Campos, Tommaselli, Ivánová, Billen (2015), doi 10.3390/rs71013337,
 """
 
 import json
+import shutil
 from collections import Counter
 from functools import cache
 from pathlib import Path
@@ -147,3 +148,16 @@ def test_both_twins_give_the_same_findings() -> None:
         for table in (dxf, gpkg)
     ]
     assert told[0] == told[1]
+
+
+def test_without_a_plane_nothing_is_accepted_and_nothing_rejected(tmp_path: Path) -> None:
+    copy = tmp_path / "station"
+    shutil.copytree(FIXTURES / "deliveries" / "station-a", copy, ignore=shutil.ignore_patterns("audit"))
+    manifest = copy / "delivery.toml"
+    lines = manifest.read_text(encoding="utf-8").splitlines()
+    manifest.write_text("\n".join(line for line in lines if not line.startswith("plane")), encoding="utf-8")
+    record = audit(manifest).record
+    assert record.quality.verdict == "undecided"
+    assert {name: element(record, name).status for name in ("Q3", "Q4", "Q5")} == dict.fromkeys(
+        ("Q3", "Q4", "Q5"), ElementStatus.UNDECIDED
+    )

@@ -13,6 +13,7 @@ from foparq.check.delivered_features import count_features
 from foparq.check.registry import all_rules
 from foparq.check.run import Checked, check_drawing
 from foparq.findings.outcome import Outcome, Status
+from foparq.findings.table import join_findings
 from foparq.model.drawing import Drawing, DrawingUnit, Reading, UnitOrigin
 from foparq.model.items import Items, Role
 from foparq.model.plane import Plane, plane_of
@@ -186,6 +187,13 @@ def test_findings_do_not_depend_on_the_order_of_the_file() -> None:
     first, second = check(thing).findings, check(shuffled).findings
     assert first.key.tolist() == second.key.tolist()
     assert first.item.tolist() == second.item.tolist()
+
+
+def test_keys_of_all_drawings_are_told_apart_however_often_tables_are_joined() -> None:
+    twice = ["LINESTRING (0 0, 1 0)", "LINESTRING (0 0, 1 0)", "LINESTRING (0 0, 1 0)"]
+    tables = [check(replace(drawing(twice), path=path)).findings for path in ("a.dxf", "b.dxf")]
+    keys = join_findings([join_findings(tables)]).key.tolist()
+    assert len(keys) == len(set(keys)) > 4
 
 
 def test_input_columns_are_read_only() -> None:

@@ -136,3 +136,11 @@ def test_nothing_and_points_are_no_trouble(lines: list[str]) -> None:
     drawn = table([shapely.from_wkt(line) for line in lines])
     assert not len(line_overlaps(drawn, np.zeros(len(lines), dtype=bool), coincide=1e-4).length)
     assert not len(self_meetings(drawn, coincide=1e-4).line)
+
+
+def test_a_chain_of_overlapping_lines_leaves_only_the_longest() -> None:
+    count = 20_000
+    shapes = [[(n, 0.0), (n + 1.5, 0.0)] for n in range(count)]
+    shapes[7] = [(7, 0.0), (8.7, 0.0)]
+    found = line_overlaps(Polylines.of(shapely.linestrings(shapes)), np.zeros(count, dtype=bool), coincide=1e-6)
+    assert sorted(set(range(count)) - set(found.line.tolist())) == [7]

@@ -11,15 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from foparq.check.inputs import all_layers, matches
 from foparq.findings.counts import FeatureCounts
 from foparq.geom.clusters import clusters
+from foparq.geom.hulls import across, hulls_of, outermost
 from foparq.model.drawing import Drawing
-from foparq.model.items import Flags, Geometries, Index, Reals, Role, holders_of
-
-_FIRST = 1000  #: hulls of the first step
+from foparq.model.items import Geometries, Index, Role, holders_of
 
 
 class Tally(NamedTuple):
@@ -192,11 +190,11 @@ def _tally(flat: Geometries, places: Sequence[_Place], gap: float) -> Tally:
     near = np.full(len(flat), -1, dtype=np.intp)
     if loose.any():
         near[loose] = clusters(flat[loose], gap=gap)
-    alone = _hulls(flat[loose], near[loose])
-    alone = alone[_across(alone) > gap]
+    alone = hulls_of(flat[loose], near[loose])
+    alone = alone[across(alone) > gap]
     hulls, most, pieces = _inserts(flat[~loose], [place for place in places if place.feature], gap)
     every = np.concatenate([alone, hulls])
-    count = int(np.count_nonzero(_outermost(every, np.zeros(len(every), dtype=np.intp))))
+    count = int(np.count_nonzero(outermost(every, np.zeros(len(every), dtype=np.intp))))
     return Tally(count, len(alone) + most, len(alone) + pieces)
 
 
@@ -205,8 +203,8 @@ def _inserts(flat: Geometries, places: Sequence[_Place], gap: float) -> tuple[Ge
     if not places:
         return flat, 0, 0
     number, feature = _numbered([place.feature for place in places])
-    hulls = _hulls(flat, feature)
-    large = _across(hulls) > gap
+    hulls = hulls_of(flat, feature)
+    large = across(hulls) > gap
     one = dict(zip(feature.tolist(), places, strict=True))
     times = Counter(place.block for place in one.values() if place.block)
     often = np.array([times[one[n].block] > 1 for n in range(number)], dtype=bool)
@@ -231,8 +229,8 @@ def _within(flat: Geometries, feature: Index, part: Index, gap: float) -> Index:
     found = np.zeros(len(pair), dtype=bool)
     if several.any():
         rows = several[label]
-        hulls = _hulls(flat[rows], np.unique(label[rows], return_inverse=True)[1].reshape(-1))
-        found[several] = (_across(hulls) > gap) & _outermost(hulls, pair[several, 0])
+        hulls = hulls_of(flat[rows], np.unique(label[rows], return_inverse=True)[1].reshape(-1))
+        found[several] = (across(hulls) > gap) & outermost(hulls, pair[several, 0])
     counted: Index = np.maximum(1, np.bincount(pair[:, 0], weights=found).astype(np.intp))
     return counted
 
@@ -241,57 +239,3 @@ def _numbered(keys: Sequence[tuple[str, ...]]) -> tuple[int, Index]:
     numbers: dict[tuple[str, ...], int] = {}
     index = np.fromiter((numbers.setdefault(key, len(numbers)) for key in keys), np.intp, len(keys))
     return len(numbers), index
-
-
-def _hulls(flat: Geometries, label: Index) -> Geometries:
-    """Convex hull of each label 0, 1, 2 ..."""
-    if not len(flat):
-        return flat
-    coordinates, row = shapely.get_coordinates(flat, return_index=True)
-    order = np.argsort(label[row], kind="stable")
-    crowds = shapely.multipoints(shapely.points(coordinates[order]), indices=label[row][order])
-    hulls: Geometries = shapely.convex_hull(crowds)
-    return hulls
-
-
-def _across(hulls: Geometries) -> Reals:
-    """Diagonals of the boxes."""
-    bounds = shapely.bounds(hulls).reshape(-1, 4)
-    across: Reals = np.hypot(bounds[:, 2] - bounds[:, 0], bounds[:, 3] - bounds[:, 1])
-    return across
-
-
-def _outermost(hulls: Geometries, group: Index) -> Flags:
-    """(n,) true for hulls that lie within no other hull of their group; of equal ones, one is true."""
-    kept = np.zeros(len(hulls), dtype=bool)
-    if not len(hulls):
-        return kept
-    order = np.lexsort([-shapely.length(hulls), -shapely.area(hulls)])
-    _, first = np.unique(_keys(hulls, group)[order], return_index=True)
-    order = order[np.sort(first)]
-    # Containment is transitive and what contains is larger: it is enough to ask the large ones that were kept. Steps
-    # grow with what was kept, so that the tree is built a few times only.
-    start, step = 0, _FIRST
-    while start < len(order):
-        block = order[start : start + step]
-        roots = np.flatnonzero(kept)
-        block = block[~_covered(hulls, group, block, roots)]
-        kept[block[~_covered(hulls, group, block, block)]] = True
-        start, step = start + step, max(_FIRST, start + step)
-    return kept
-
-
-def _covered(hulls: Geometries, group: Index, inner: Index, outer: Index) -> Flags:
-    i, j = shapely.STRtree(hulls[outer]).query(hulls[inner], predicate="covered_by")
-    other = (group[inner[i]] == group[outer[j]]) & (inner[i] != outer[j])
-    covered = np.zeros(len(inner), dtype=bool)
-    covered[i[other]] = True
-    return covered
-
-
-def _keys(hulls: Geometries, group: Index) -> NDArray[np.object_]:
-    """(n,) equal for equal hulls of one group."""
-    texts = shapely.to_wkb(shapely.normalize(hulls)).tolist()
-    numbers: dict[tuple[int, bytes], int] = {}
-    keys = [numbers.setdefault(key, len(numbers)) for key in zip(group.tolist(), texts, strict=True)]
-    return np.array(keys)

@@ -8,6 +8,7 @@ What no rule could look at (a line of one point, a hidden layer) is counted as s
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
+from functools import cached_property
 from typing import Any, cast
 
 import numpy as np
@@ -96,6 +97,7 @@ class DrawingInputs:
         moved = shapely.force_2d(moved)
         return cast("Geometries", shapely.set_coordinates(moved, sheet[:, :2]))
 
+    @cached_property
     def seen_edge_on(self) -> bool:
         """Whether the plane shows the drawing from its edge: its width or height is a small part of its depth.
 

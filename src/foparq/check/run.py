@@ -117,7 +117,7 @@ def _doubt(inputs: DrawingInputs, outcomes: Sequence[Outcome]) -> str:
     doubted = any(outcome.name == _UNIT_RULE and outcome.status is Status.FAULTY for outcome in outcomes)
     if doubted and unit.origin is not UnitOrigin.STATED:
         return "unit-doubtful"
-    return "plane-doubtful" if inputs.seen_edge_on() else ""
+    return "plane-doubtful" if inputs.seen_edge_on else ""
 
 
 def _run(call: _Call, inputs: DrawingInputs, doubt: str) -> tuple[Outcome, Findings | None, list[str]]:

@@ -5,7 +5,7 @@ from foparq.cli.exits import Exit
 from foparq.evaluate.quality import Verdict
 from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import Severity
-from foparq.model.delivery import SourceStatus
+from foparq.model.delivery import LOST
 from foparq.report.record import AuditRecord
 
 _ABOUT_FILES = ("FIL", "DOM")  #: families of rules that look at files; an empty drawing passes them
@@ -44,4 +44,4 @@ def _stopped(outcome: Outcome) -> bool:
 
 
 def _refused(record: AuditRecord) -> bool:
-    return any(source.status in {SourceStatus.REFUSED, SourceStatus.MISSING} for source in record.delivery.sources)
+    return any(source.status in LOST for source in record.delivery.sources)

@@ -14,7 +14,7 @@ import numpy as np
 from foparq.cli.exit_of import looked_at_everything
 from foparq.evaluate.quality import Element
 from foparq.findings.table import Severity
-from foparq.model.delivery import SourceStatus
+from foparq.model.delivery import LOST, SourceStatus
 from foparq.report.audit_json import audit_json, findings_csv, findings_jsonl, findings_rows
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import outcome_because, reason_sentence, source_sentence
@@ -99,8 +99,7 @@ def _headline(record: AuditRecord, say: Words) -> str:
 def _element(element: Element, say: Words) -> None:
     value = "–" if element.value is None else _size(say, element.value, element.unit)
     limit = "" if element.limit is None else f"{element.comparison} {_size(say, element.limit, element.unit)}"
-    informative = element.limit is None and not element.required and element.value is not None
-    status = say(f"cli.status.{'reported' if informative else element.status.value}")
+    status = say(f"cli.status.{'reported' if element.only_reported else element.status.value}")
     title = say(f"evaluate.element.{element.id}.title")
     name = f"{element.id:<11}{title}"
     click.echo(f"{name[:62]:<62} {value:>12} {limit:>13}  {status}")
@@ -137,7 +136,7 @@ def _unread(record: AuditRecord, say: Words) -> list[str]:
     return [
         f"{printable(source.path)}: {source_sentence(say, source)}"
         for source in record.delivery.sources
-        if source.status in {SourceStatus.REFUSED, SourceStatus.MISSING}
+        if source.status in LOST
     ]
 
 

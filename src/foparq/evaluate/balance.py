@@ -179,11 +179,19 @@ def uncounted(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     return (because("features.unit-unknown", element=name, files=[d.path for d in drawings]),) if drawings else ()
 
 
+#: why rules with lengths did not run on a drawing, and what that means for its features
+_DOUBTS = {"unit-doubtful": "features.unit-doubtful", "plane-doubtful": "features.plane-doubtful"}
+
+
 def doubtful(evidence: Evidence, name: str) -> tuple[Reason, ...]:
-    """Drawings that contradict their own unit: what counts as one feature depends on lengths, so counts say nothing."""
-    doubted = {outcome.source for outcome in evidence.outcomes if outcome.because == "unit-doubtful"}
-    files = [drawing.path for drawing in evidence.delivery.drawings if drawing.classes and drawing.path in doubted]
-    return (because("features.unit-doubtful", element=name, files=files),) if files else ()
+    """Drawings whose unit or plane is in doubt: what counts as one feature depends on both, so counts say nothing."""
+    why = []
+    for doubt, message in _DOUBTS.items():
+        doubted = {outcome.source for outcome in evidence.outcomes if outcome.because == doubt}
+        files = [drawing.path for drawing in evidence.delivery.drawings if drawing.classes and drawing.path in doubted]
+        if files:
+            why.append(because(message, element=name, files=files))
+    return tuple(why)
 
 
 def unmapped(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:

@@ -10,7 +10,7 @@ from foparq.evaluate.measures import measures
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.outcome import Outcome
-from foparq.model.delivery import Delivery, SourceStatus
+from foparq.model.delivery import LOST, Delivery
 from foparq.model.drawing import Drawing, Skipped
 from foparq.profile.schema import ElementSpec
 
@@ -39,8 +39,7 @@ class Evidence:
 
     def lost(self, role: str) -> list[str]:
         """Paths of the files of one role that could not be read."""
-        gone = {SourceStatus.REFUSED, SourceStatus.MISSING}
-        return [source.path for source in self.delivery.sources if source.role == role and source.status in gone]
+        return [source.path for source in self.delivery.sources if source.role == role and source.status in LOST]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -60,6 +60,11 @@ class Element:
     method: str = "directInternal"  #: ISO 19157 evaluation method type, or ``directExternal``
     details: tuple[tuple[str, float, float], ...] = ()  #: per class or rule: name, found, out of
 
+    @property
+    def only_reported(self) -> bool:
+        """Whether a value stands without a limit: there is nothing to meet."""
+        return self.value is not None and self.limit is None and not self.required
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class QualityReport:

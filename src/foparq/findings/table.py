@@ -72,19 +72,18 @@ def join_findings(tables: Sequence[Findings]) -> Findings:
         ),
     )
     columns = {name: column[order] for name, column in columns.items()}
-    columns["key"] = _told_apart(columns["key"])
+    columns["key"] = _told_apart(columns["key"].tolist())
     return Findings(**columns)
 
 
-def _told_apart(keys: Texts) -> Texts:
-    """Keys, numbered where two drawings gave the same one."""
-    if len(set(keys.tolist())) == len(keys):
-        return keys
+def _told_apart(keys: Sequence[str]) -> Texts:
+    """Keys, numbered anew where several findings share one: of one drawing, or of two that are alike."""
     seen: dict[str, int] = {}
-    unique = keys.copy()
+    unique = np.empty(len(keys), dtype=object)
     for n, key in enumerate(keys):
-        seen[key] = seen.get(key, 0) + 1
-        unique[n] = key if seen[key] == 1 else f"{key}-{seen[key]}"
+        bare = key[:_BARE]
+        seen[bare] = seen.get(bare, 0) + 1
+        unique[n] = bare if seen[bare] == 1 else f"{bare}-{seen[bare]}"
     return unique
 
 
@@ -109,15 +108,13 @@ def finding_keys(rule: str, layer: Texts, item: Texts, other: Texts, places: Rea
     """
     # A place absurdly far away is still a place: it stays within what an integer holds.
     cells = np.clip(np.rint(np.nan_to_num(places / grid)), -(2.0**62), 2.0**62).astype(np.int64).tolist()
-    seen: dict[str, int] = {}
-    keys = np.empty(len(item), dtype=object)
-    for n, (on, one, two, cell) in enumerate(zip(layer, item, other, cells, strict=True)):
+    keys = []
+    for on, one, two, cell in zip(layer, item, other, cells, strict=True):
         first, second = (two, one) if two < one else (one, two)
         text = f"{rule}\x1f{on}\x1f{first}\x1f{second}\x1f{cell}"
-        key = f"{rule}-{hashlib.blake2b(text.encode(), digest_size=5).hexdigest()}"
-        seen[key] = seen.get(key, 0) + 1
-        keys[n] = key if seen[key] == 1 else f"{key}-{seen[key]}"
-    return keys
+        keys.append(f"{rule}-{hashlib.blake2b(text.encode(), digest_size=5).hexdigest()}")
+    return _told_apart(keys)
 
 
+_BARE = len("TOP021-1a2b3c4d5e")  #: of a key before its number
 _DTYPES: dict[str, type] = {"size": float, "limit": float, "waived": bool}

@@ -4,6 +4,8 @@
 from typing import NamedTuple
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
 
 from foparq.geom.pairs import meetings
 from foparq.geom.polylines import Flags, Index, Polylines, Reals, summed
@@ -74,24 +76,23 @@ def line_overlaps(lines: Polylines, exempt: Flags, *, coincide: float) -> Overla
 
 
 def _from_the_longest(lines: Polylines, exempt: Flags, one: Index, two: Index) -> tuple[Index, Index]:
-    """The same pairs, ordered from the longest line of each group outwards: all but that one are at fault."""
+    """The same pairs, each from the nearer to the farther of its lines, told from the longest line of the group.
+
+    So every line of a group but the longest is the farther one of some pair. In a group with boundaries of areas the
+    boundaries stay instead.
+    """
     if not len(one):
         return one, two
-    label = components(len(lines), one, two)
-    order = np.lexsort((np.arange(len(lines)), -np.round(lines.length / (4 * lines.slack)), label))
-    _, first = np.unique(label[order], return_index=True)
-    depth = np.full(len(lines), len(lines))
-    depth[order[first]] = 0
-    beside = np.zeros(len(lines), dtype=bool)
-    np.logical_or.at(beside, label, exempt)
-    depth[beside[label]] = len(lines)
-    depth[order[first][~beside[label[order[first]]]]] = 0
-    depth[exempt] = 0
-    while True:
-        before = depth.copy()
-        np.minimum.at(depth, two, before[one] + 1)
-        np.minimum.at(depth, one, before[two] + 1)
-        if np.array_equal(before, depth):
-            break
-    swap = (depth[one] > depth[two]) | ((depth[one] == depth[two]) & (one > two))
+    line, index = np.unique(np.concatenate([one, two]), return_inverse=True)
+    i, j = index[: len(one)], index[len(one) :]
+    label = components(len(line), i, j)
+    # Lengths that differ by rounding only are equal; of equals the first.
+    order = np.lexsort((line, -np.round(lines.length[line] / (4 * lines.slack)), label))
+    longest_line = order[np.unique(label[order], return_index=True)[1]]
+    bounded = np.zeros(len(longest_line), dtype=bool)
+    bounded[label[exempt[line]]] = True
+    sources = np.concatenate([np.flatnonzero(exempt[line]), longest_line[~bounded]])
+    graph = coo_array((np.ones(len(i)), (i, j)), shape=(len(line), len(line))).tocsr()
+    steps = dijkstra(graph, directed=False, indices=sources, unweighted=True, min_only=True)
+    swap = (steps[i] > steps[j]) | ((steps[i] == steps[j]) & (one > two))
     return np.where(swap, two, one), np.where(swap, one, two)

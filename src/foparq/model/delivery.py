@@ -18,6 +18,10 @@ class SourceStatus(StrEnum):
     MISSING = "missing"  #: named by the manifest, not there
 
 
+#: named, and nothing of it was seen
+LOST = frozenset({SourceStatus.REFUSED, SourceStatus.MISSING})
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Source:
     """One file of the delivery."""

@@ -97,7 +97,6 @@ class Profile(Strict):
     checks: tuple[CheckSpec, ...]
     elements: tuple[ElementSpec, ...] = ()
     path: str = ""  #: file it came from
-
     sha256: str = ""  #: of that file, and of the one it extends
 
     def chord_distance(self, scale: float | None) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 
 from foparq.errors import InputError
-from foparq.model.delivery import SourceStatus
+from foparq.model.delivery import LOST
 from foparq.model.drawing import Drawing
 from foparq.profile.manifest import SurveySection
 from foparq.profile.schema import Profile
@@ -100,8 +100,7 @@ def _drawing(path: Path, profile: Profile) -> Drawing | None:
     except (InputError, OSError):
         return None
     delivery, _ = read_loose([path], profile=profile, scale=_SCALE, unit=None, plane=None)
-    unread = {SourceStatus.REFUSED, SourceStatus.MISSING}
-    if any(source.status in unread for source in delivery.sources) or not delivery.drawings:
+    if any(source.status in LOST for source in delivery.sources) or not delivery.drawings:
         return None
     return delivery.drawings[0]
 

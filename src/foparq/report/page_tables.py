@@ -182,11 +182,6 @@ def open_elements(words: Words, record: AuditRecord) -> tuple[ElementView, ...]:
     return tuple(_element_view(words, element) for element in record.quality.elements if element.status in OPEN)
 
 
-def _only_reported(element: Element) -> bool:
-    """Whether a value stands without a limit: there is nothing to meet."""
-    return element.value is not None and element.limit is None and not element.required
-
-
 def _element_view(words: Words, element: Element) -> ElementView:
     kind = words(f"report.element.{element.element}")
     sign = {"<=": "≤", ">=": "≥"}.get(element.comparison, element.comparison)
@@ -203,7 +198,7 @@ def _element_view(words: Words, element: Element) -> ElementView:
         limit=limit.strip() or "–",
         n=words.count(element.n),
         status=element.status.value,
-        word=words("report.status.reported" if _only_reported(element) else f"report.status.{element.status.value}"),
+        word=words("report.status.reported" if element.only_reported else f"report.status.{element.status.value}"),
         why=tuple(reason_sentence(words, reason) for reason in element.why),
         required=element.required,
         parameters=(
