@@ -11,16 +11,13 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from numpy.typing import NDArray
 
 from foparq.check.registry import all_rules
 from foparq.check.rule import Rule
+from foparq.columns import Coordinates, Geometries
 from foparq.findings.hits import NOBODY, Hits
 from foparq.findings.table import finding_keys
 from foparq.model.inputs import Areas, Features, Lines, Named, areas_of, features_of, lines_of
-
-Coordinates = NDArray[np.float64]
-Geometries = NDArray[np.object_]
 
 RULES = [rule for rule in all_rules().values() if rule.subject in {Lines, Areas, Features}]
 # No two places of the grid are exactly this far apart, and no two areas this large.

@@ -24,7 +24,7 @@ from foparq.geom.ends import EndKind, classify_ends
 from foparq.model.inputs import Lines, nameless
 from foparq.model.items import Role
 from foparq.profile.schema import LimitsSpec
-from foparq.read.dxf import read_dxf
+from foparq.read.dxf.reader import read_dxf
 
 pytestmark = pytest.mark.shared
 

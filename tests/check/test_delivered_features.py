@@ -20,7 +20,7 @@ from foparq.model.drawing import Drawing, DrawingUnit, Reading, UnitOrigin
 from foparq.model.items import Holder, Items, Role, holders_of
 from foparq.model.plane import plane_of
 from foparq.profile.schema import LimitsSpec
-from foparq.read.dxf import read_dxf
+from foparq.read.dxf.reader import read_dxf
 
 PASS, FAIL, UNDECIDED = ElementStatus.PASS, ElementStatus.FAIL, ElementStatus.UNDECIDED
 GAP = 0.01

@@ -7,7 +7,7 @@ from typing import Any
 import ezdxf
 
 from foparq.profile.schema import LimitsSpec
-from foparq.read.dxf import read_dxf
+from foparq.read.dxf.reader import read_dxf
 from foparq.read.raw import RawDrawing
 
 SAGITTA = 1e-4  #: metres

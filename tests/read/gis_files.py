@@ -11,7 +11,7 @@ import shapely
 
 from foparq.errors import FoparqError, UnreadableError
 from foparq.profile.schema import LimitsSpec
-from foparq.read.gis import read_gis
+from foparq.read.gis.reader import read_gis
 from foparq.read.raw import RawDrawing
 from foparq.report.words import LANGUAGES, Words
 

@@ -22,7 +22,7 @@ from foparq.profile.schema import LimitsSpec, Profile, ReadingSpec
 from foparq.read import delivery as module
 from foparq.read import paths
 from foparq.read.delivery import read_delivery, read_loose
-from foparq.read.paths import inside
+from foparq.read.guard.paths import inside
 from foparq.report.words import LANGUAGES, Words
 
 pytestmark = pytest.mark.usefixtures("alone")

@@ -16,7 +16,7 @@ from foparq.check.rules.fil.block_bomb import block_bomb
 from foparq.errors import UnsafeError
 from foparq.model.items import Role
 from foparq.profile.schema import LimitsSpec
-from foparq.read.dxf_blocks import admit, count_blocks
+from foparq.read.dxf.blocks import admit, count_blocks
 
 
 def nested(levels: int, times: int) -> Any:

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 from tests.read.drawn import SAGITTA, new, read_back, skipped
 
-from foparq.read.dxf_curves import Sagitta, TooFineError, axes, cos_sin, flatten_arc, flatten_bulge, to_world
-from foparq.read.dxf_spline import flatten_spline, open_uniform
+from foparq.read.dxf.curves import Sagitta, TooFineError, axes, cos_sin, flatten_arc, flatten_bulge, to_world
+from foparq.read.dxf.spline import flatten_spline, open_uniform
 
 RADII = st.floats(1e-3, 1e3)
 SAGITTAS = st.floats(1e-4, 1e-1)

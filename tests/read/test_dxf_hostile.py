@@ -13,7 +13,7 @@ from tests.read.drawn import new, read, read_back, skipped
 
 from foparq.errors import InputError, QuantityError, UnreadableError, UnsafeError
 from foparq.profile.schema import LimitsSpec
-from foparq.read.dxf_facts import _WITHOUT
+from foparq.read.dxf.facts import _WITHOUT
 from foparq.report.words import LANGUAGES, Words
 
 SMALL = LimitsSpec(entities=100_000, vertices=1_000_000)

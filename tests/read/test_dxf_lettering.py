@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from foparq.model.lettering import lettered_length
-from foparq.read.dxf_text import doubly_encoded, override_text, plain_lettering, readable
+from foparq.read.dxf.text import doubly_encoded, override_text, plain_lettering, readable
 
 INCH = 0.0254
 

@@ -12,7 +12,7 @@ from tests.read.gis_files import put, read, refused, write
 
 from foparq.errors import UnsafeError
 from foparq.profile.schema import LimitsSpec
-from foparq.read.gis import read_gis
+from foparq.read.gis.reader import read_gis
 
 SAGITTA = 1e-4  # metres, as gis_files reads
 

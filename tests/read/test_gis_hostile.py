@@ -14,7 +14,7 @@ import pytest
 from tests.read.gis_files import listing, read, refused, write
 
 from foparq.errors import FoparqError, UnreadableError, UnsafeError
-from foparq.read.gpkg_safety import opened
+from foparq.read.gis.gpkg_safety import opened
 
 VRT = (
     """<OGRVRTDataSource><OGRVRTLayer name="other"><SrcDataSource>{}</SrcDataSource></OGRVRTLayer></OGRVRTDataSource>"""
@@ -216,7 +216,7 @@ def test_a_plain_database_is_no_geopackage(tmp_path: Path) -> None:
 
 
 def test_a_fresh_process_has_only_the_drivers_it_needs() -> None:
-    code = "import foparq.read.gis, pyogrio; print(*sorted(pyogrio.list_drivers()))"
+    code = "import foparq.read.gis.reader, pyogrio; print(*sorted(pyogrio.list_drivers()))"
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("OGR_", "CPL_"))}
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment)
     assert set(done.stdout.split()) >= {"GPKG", "GeoJSON"}

@@ -16,7 +16,7 @@ import shapely
 
 from foparq.errors import UnreadableError, UnsafeError
 from foparq.model.items import Items
-from foparq.read.guard import guarded
+from foparq.read.guard.parent import guarded
 
 MEMORY = 400_000_000
 pytestmark = pytest.mark.usefixtures("alone")

@@ -15,7 +15,7 @@ MESSAGE = re.compile(r'"((?:read|table|manifest|dxf)\.[a-z-]+)"')
 def test_every_message_of_the_readers(repository: Path, language: str) -> None:
     said = {
         key
-        for path in (repository / "src/foparq/read").glob("*.py")
+        for path in (repository / "src/foparq/read").rglob("*.py")
         for key in MESSAGE.findall(path.read_text("utf-8"))
     }
     words = Words(language)

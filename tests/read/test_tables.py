@@ -8,7 +8,7 @@ import pytest
 
 from foparq.errors import UnreadableError
 from foparq.profile.manifest import SurveySection
-from foparq.read.tables import read_checkpoints, read_distances, read_feature_list
+from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
 from foparq.report.words import LANGUAGES, Words
 
 METRES = SurveySection(path="t.csv")

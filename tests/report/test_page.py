@@ -17,8 +17,8 @@ from foparq.evaluate.quality import QualityReport, Verdict
 from foparq.findings.outcome import Status
 from foparq.findings.table import Findings, join_findings
 from foparq.model.delivery import Delivery
-from foparq.report.page import page, write_page
-from foparq.report.page_findings import group_findings
+from foparq.report.page.findings import group_findings
+from foparq.report.page.page import page, write_page
 from foparq.report.record import AuditRecord
 from foparq.report.words import LANGUAGES, Words
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import shapely
 
-from foparq.report.page import write_page
+from foparq.report.page.page import write_page
 from foparq.report.record import AuditRecord
 
 if TYPE_CHECKING:
@@ -177,8 +177,8 @@ def test_paper_shows_one_language_whole_and_no_controls(browser: "Browser", path
 def test_a_toned_picture_is_shown(
     browser: "Browser", rejected: AuditRecord, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("foparq.report.page_drawing.EXACT_ITEMS", 10)
-    monkeypatch.setattr("foparq.report.page_drawing.EXACT_VERTICES", 10)
+    monkeypatch.setattr("foparq.report.page.drawing.EXACT_ITEMS", 10)
+    monkeypatch.setattr("foparq.report.page.drawing.EXACT_VERTICES", 10)
     write_page(replace(rejected, language="en"), tmp_path / "toned.html")
     shown = Shown(browser, tmp_path / "toned.html")
     picture = shown.page.locator("image").get_attribute("href") or ""

@@ -18,10 +18,10 @@ from foparq.findings.table import Findings, no_findings
 from foparq.model.drawing import Drawing
 from foparq.model.items import Items
 from foparq.model.plane import plane_of
-from foparq.report.page import bar_text, page
-from foparq.report.page_drawing import EXACT_VERTICES, GROUPS, Picture, marks_at, picture_of
-from foparq.report.page_paths import Strokes, density, merged_dots, path_data, simplify, strokes_of
-from foparq.report.page_png import grey_png
+from foparq.report.page.drawing import EXACT_VERTICES, GROUPS, Picture, marks_at, picture_of
+from foparq.report.page.page import bar_text, page
+from foparq.report.page.paths import Strokes, density, merged_dots, path_data, simplify, strokes_of
+from foparq.report.page.png import grey_png
 from foparq.report.places import places
 from foparq.report.record import AuditRecord
 from foparq.report.words import Words

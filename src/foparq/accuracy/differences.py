@@ -4,12 +4,14 @@
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from foparq.columns import Reals
 
 _NOISE = 8.0  #: units in the last place that a subtraction and a change of unit may leave
 
 
-def differences(delivered: ArrayLike, reference: ArrayLike) -> NDArray[np.float64]:
+def differences(delivered: ArrayLike, reference: ArrayLike) -> Reals:
     """Delivered minus reference, without the noise of binary numbers.
 
     100.351 - 100.101 is 0.25, not 0.25000000000001: decimals that the subtraction cannot resolve are rounded away, so
@@ -32,7 +34,7 @@ def differences(delivered: ArrayLike, reference: ArrayLike) -> NDArray[np.float6
     """
     left, right = np.asarray(delivered, dtype=np.float64), np.asarray(reference, dtype=np.float64)
     with np.errstate(over="ignore", invalid="ignore"):
-        raw: NDArray[np.float64] = left - right
+        raw: Reals = left - right
     known = np.isfinite(raw)
     found = np.where(known, raw, math.nan)
     if known.any():

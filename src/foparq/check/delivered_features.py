@@ -13,11 +13,12 @@ import numpy as np
 import shapely
 
 from foparq.check.inputs import all_layers, matches
+from foparq.columns import Geometries, Index
 from foparq.findings.counts import FeatureCounts
 from foparq.geom.clusters import clusters
 from foparq.geom.hulls import across, hulls_of, outermost
 from foparq.model.drawing import Drawing
-from foparq.model.items import Geometries, Index, Role, holders_of
+from foparq.model.items import Role, holders_of
 
 
 class Tally(NamedTuple):

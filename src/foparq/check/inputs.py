@@ -13,9 +13,9 @@ from typing import Any, cast
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from foparq.check.unit_evidence import unit_evidence
+from foparq.columns import Flags, Geometries, Index, Texts
 from foparq.model.drawing import Drawing
 from foparq.model.inputs import (
     Areas,
@@ -29,7 +29,7 @@ from foparq.model.inputs import (
     Repairs,
     UnitEvidence,
 )
-from foparq.model.items import Flags, Geometries, Index, Role, holders_of
+from foparq.model.items import Role, holders_of
 
 _FACTS = (Repairs, Bombs, HiddenItems, LayerNames, LayerPatterns, UnitEvidence)
 _LINE_STRING, _LINEAR_RING, _POLYGON = 1, 2, 3
@@ -45,7 +45,7 @@ def matches(layer: str, patterns: tuple[str, ...]) -> bool:
     return any(fnmatchcase(name, pattern.casefold()) for pattern in patterns)
 
 
-def matching(layers: NDArray[np.object_], patterns: tuple[str, ...]) -> Flags:
+def matching(layers: Texts, patterns: tuple[str, ...]) -> Flags:
     """(n,) whether each layer name matches one of the patterns."""
     if "*" in patterns:
         return np.ones(len(layers), dtype=bool)

@@ -16,12 +16,13 @@ import shapely
 from foparq.check.inputs import DrawingInputs, matches
 from foparq.check.registry import all_rules, in_order
 from foparq.check.rule import Rule
-from foparq.findings.hits import NOBODY, Geometries, Hits, Reals
+from foparq.columns import Geometries, Index, Reals, Texts
+from foparq.findings.hits import NOBODY, Hits
 from foparq.findings.outcome import Outcome, Status
-from foparq.findings.table import Findings, Severity, Texts, finding_keys, join_findings
+from foparq.findings.table import Findings, Severity, finding_keys, join_findings
 from foparq.model.drawing import Drawing, UnitOrigin
 from foparq.model.inputs import Named
-from foparq.model.items import Index, Role
+from foparq.model.items import Role
 from foparq.profile.schema import CheckSpec, Profile
 
 _KEY_GRID = 0.001  #: metres: above the noise of coordinates, below the distance of two findings

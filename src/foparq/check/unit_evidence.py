@@ -6,9 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
+from foparq.columns import Geometries, Reals
 from foparq.model.drawing import Dimensions, Drawing, UnitOrigin
 from foparq.model.inputs import UnitEvidence
-from foparq.model.items import Geometries, Reals, Role
+from foparq.model.items import Role
 from foparq.model.lettering import lettered_length
 from foparq.units import LENGTHS
 

@@ -9,7 +9,7 @@ import click
 from foparq.audit import MANIFEST
 from foparq.errors import ManifestError, WriteError
 from foparq.profile.load import load_profile
-from foparq.read.survey import FoundDrawing, Survey, survey_folder
+from foparq.read.table.survey import FoundDrawing, Survey, survey_folder
 from foparq.report.words import Words, printable
 
 _PROFILE = "et-doc-foparq-a"

@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
+from foparq.columns import Texts
 from foparq.evaluate.evidence import Evidence, Judgement, judged
 from foparq.evaluate.quality import ElementStatus, Reason, because
 from foparq.findings.counts import FeatureCounts
-from foparq.model.items import Texts
 from foparq.model.tables import FeatureList
 
 

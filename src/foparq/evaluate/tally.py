@@ -7,12 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foparq.columns import Index
 from foparq.evaluate.evidence import Evidence, Judgement, judged, unseen
 from foparq.evaluate.measures import measure_counting
 from foparq.evaluate.quality import ElementStatus, Reason, because
 from foparq.findings.outcome import Outcome, Status
 from foparq.model.drawing import Drawing
-from foparq.model.items import Index, Role
+from foparq.model.items import Role
 from foparq.profile.schema import ElementSpec
 
 #: why a rule did not run, and its sentence

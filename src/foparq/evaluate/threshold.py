@@ -8,9 +8,9 @@ import numpy as np
 
 from foparq.accuracy.bounds import rmse_less_reference, rmse_upper, rmse_with_reference, rounding_bound
 from foparq.accuracy.moments import Moments, moments
+from foparq.columns import Reals
 from foparq.evaluate.evidence import Judgement, Parameters, judged
 from foparq.evaluate.quality import ElementStatus, Reason, because
-from foparq.model.items import Reals
 from foparq.profile.schema import ElementSpec
 
 

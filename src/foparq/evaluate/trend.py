@@ -9,10 +9,10 @@ from foparq.accuracy.differences import differences
 from foparq.accuracy.moments import Moments, moments
 from foparq.accuracy.normality import anderson_darling
 from foparq.accuracy.student import StudentTest, sign_test, student_test
+from foparq.columns import Reals
 from foparq.evaluate.absolute import AXES
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
-from foparq.model.items import Reals
 from foparq.model.tables import Checkpoints
 from foparq.profile.schema import ElementSpec
 

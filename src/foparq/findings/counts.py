@@ -4,12 +4,11 @@
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-Counts = NDArray[np.intp]
+from foparq.columns import Index, Texts
 
 
-def _left_out() -> Counts:
+def _left_out() -> Index:
     return np.empty(0, dtype=np.intp)
 
 
@@ -21,11 +20,11 @@ class FeatureCounts:
     fewest features there may be; ``most`` and ``pieces`` are the most.
     """
 
-    feature_class: NDArray[np.object_]  #: (n,) ``"window"``
-    facade: NDArray[np.object_]  #: (n,) ``"N"``; ``""`` if the drawing names none
-    count: Counts  #: (n,)
-    most: Counts = field(default_factory=_left_out)  #: (n,) without nesting, every block one; left out: ``count``
-    pieces: Counts = field(default_factory=_left_out)  #: (n,) blocks that may hold several opened; left out: ``most``
+    feature_class: Texts  #: (n,) ``"window"``
+    facade: Texts  #: (n,) ``"N"``; ``""`` if the drawing names none
+    count: Index  #: (n,)
+    most: Index = field(default_factory=_left_out)  #: (n,) without nesting, every block one; left out: ``count``
+    pieces: Index = field(default_factory=_left_out)  #: (n,) blocks that may hold several opened; left out: ``most``
     unmapped: tuple[tuple[str, int], ...] = ()  #: layers that no class is bound to, with their items: not assessed
     hidden: tuple[tuple[str, str, str], ...] = ()  #: class, facade and layer of items that nobody sees
 

@@ -4,11 +4,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Index = NDArray[np.intp]
-Reals = NDArray[np.float64]
-Geometries = NDArray[np.object_]
+from foparq.columns import Geometries, Index, Reals
 
 NOBODY = -1  #: in ``Hits.other``: no second item is involved
 

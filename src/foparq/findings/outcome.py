@@ -4,7 +4,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from foparq.findings.hits import Index
+from foparq.columns import Index
 
 
 class Status(StrEnum):

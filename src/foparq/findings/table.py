@@ -7,12 +7,8 @@ from dataclasses import dataclass, fields
 from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
 
-from foparq.findings.hits import Geometries, Reals
-
-Texts = NDArray[np.object_]
-Flags = NDArray[np.bool_]
+from foparq.columns import Flags, Geometries, Reals, Texts
 
 
 class Severity(StrEnum):

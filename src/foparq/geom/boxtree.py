@@ -11,8 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-Reals = NDArray[np.float64]
-Index = NDArray[np.intp]
+from foparq.columns import Index, Reals
 
 _FANOUT = 4
 #: pairs of boxes tested in one step: 2**21 pairs take about 100 MB

@@ -3,9 +3,9 @@
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
-from foparq.geom.stretches import Geometries, Index, components, in_order_of_first
+from foparq.columns import Geometries, Index
+from foparq.geom.stretches import components, in_order_of_first
 
 #: geometries asked in one step
 _BLOCK = 20_000
@@ -33,7 +33,7 @@ def clusters(geometry: Geometries, *, gap: float) -> Index:
         return np.empty(0, dtype=np.intp)
     label = _same_cell(geometry, gap)
     tree = shapely.STRtree(geometry)
-    edges: list[NDArray[np.intp]] = []
+    edges: list[Index] = []
     for start in range(0, len(geometry), _BLOCK):
         block = geometry[start : start + _BLOCK]
         i, j = tree.query(block, predicate="dwithin", distance=gap)

@@ -5,13 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
+from foparq.columns import Geometries, Index, Reals
 from foparq.geom.polylines import ROUNDING
-
-Reals = NDArray[np.float64]
-Index = NDArray[np.intp]
-Geometries = NDArray[np.object_]
 
 #: corners sharper than this many times the growth are cut, so that growing stays near
 _MITRE = 5.0

@@ -5,9 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from foparq.columns import Flags, Index, Reals
 from foparq.geom.ends import leaving
 from foparq.geom.pairs import meetings
-from foparq.geom.polylines import Flags, Index, Polylines, Reals
+from foparq.geom.polylines import Polylines
 from foparq.geom.segments import ALONG, at_share, contacts, shared
 from foparq.geom.stretches import join_pieces, longest
 

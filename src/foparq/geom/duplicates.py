@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import cKDTree
 
-from foparq.geom.polylines import Flags, Index, Polylines, Reals
+from foparq.columns import Flags, Index, Reals
+from foparq.geom.polylines import Polylines
 from foparq.geom.ragged import ragged
 from foparq.geom.segments import at_share, nearest_share
 from foparq.geom.stretches import components

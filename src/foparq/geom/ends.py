@@ -13,7 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from foparq.geom.polylines import Flags, Index, Polylines, Reals, Segments
+from foparq.columns import Flags, Index, Reals
+from foparq.geom.polylines import Polylines, Segments
 from foparq.geom.segments import at_share, cannot_meet, contacts, nearest_share
 
 NOBODY = -1

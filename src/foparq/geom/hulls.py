@@ -3,11 +3,8 @@
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
-from foparq.geom.polylines import Flags, Index, Reals
-
-Geometries = NDArray[np.object_]
+from foparq.columns import Flags, Geometries, Index, Reals
 
 _FIRST = 1000  #: hulls of the first step
 

@@ -7,8 +7,9 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
+from foparq.columns import Flags, Index, Reals
 from foparq.geom.pairs import meetings
-from foparq.geom.polylines import Flags, Index, Polylines, Reals, summed
+from foparq.geom.polylines import Polylines, summed
 from foparq.geom.segments import shared
 from foparq.geom.stretches import components, longest
 from foparq.geom.tangents import runs_along

@@ -5,7 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foparq.geom.polylines import Index, Polylines
+from foparq.columns import Index
+from foparq.geom.polylines import Polylines
 from foparq.geom.segments import cannot_meet, contacts, shared
 
 

@@ -12,14 +12,9 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
+from foparq.columns import Flags, Geometries, Index, Reals
 from foparq.geom.boxtree import BoxTree
-
-Reals = NDArray[np.float64]
-Index = NDArray[np.intp]
-Flags = NDArray[np.bool_]
-Geometries = NDArray[np.object_]
 
 T = TypeVar("T")
 

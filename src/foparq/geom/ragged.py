@@ -2,9 +2,8 @@
 """Ranges of unequal length, laid end to end."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Index = NDArray[np.intp]
+from foparq.columns import Index
 
 
 def ragged(start: Index, count: Index) -> tuple[Index, Index]:

@@ -4,9 +4,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from foparq.geom.polylines import Flags, Reals, Segments
+from foparq.columns import Flags, Reals
+from foparq.geom.polylines import Segments
 
 #: sine of an angle of 0.06 degrees: below it the crossing of two segments is not well placed
 _TRANSVERSAL = 1e-3
@@ -23,7 +23,7 @@ class Contacts(NamedTuple):
 
     on_a: Reals  #: (5, k) share of the length of a
     on_b: Reals  #: (5, k) share of the length of b
-    meets: NDArray[np.bool_]  #: (5, k) near in the plane and in depth
+    meets: Flags  #: (5, k) near in the plane and in depth
 
 
 class Shared(NamedTuple):

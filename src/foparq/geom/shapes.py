@@ -5,7 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foparq.geom.polylines import Index, Polylines, Reals
+from foparq.columns import Index, Reals
+from foparq.geom.polylines import Polylines
 
 
 class RepeatedVertices(NamedTuple):

@@ -4,17 +4,13 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from foparq.columns import Index, Reals
 from foparq.geom.boxtree import BoxTree
 from foparq.geom.polylines import Segments, summed
 from foparq.geom.segments import contacts
-
-Reals = NDArray[np.float64]
-Index = NDArray[np.intp]
-Geometries = NDArray[np.object_]
 
 
 class Stretches(NamedTuple):

@@ -7,7 +7,8 @@ tangent for 60 mm. An arch that springs from a jamb touches it so, and is drawn 
 
 import numpy as np
 
-from foparq.geom.polylines import Flags, Index, Polylines, Reals, summed
+from foparq.columns import Flags, Index, Reals
+from foparq.geom.polylines import Polylines, summed
 from foparq.geom.segments import at_share, nearest_share
 from foparq.geom.stretches import join_pieces
 

@@ -6,10 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
-Index = NDArray[np.intp]
-Geometries = NDArray[np.object_]
+from foparq.columns import Flags, Geometries, Index
 
 _LINE, _RING = (shapely.GeometryType.LINESTRING, shapely.GeometryType.LINEARRING)
 #: vertices below which a line or ring has no shape
@@ -56,7 +54,7 @@ def invalid_geometries(geometry: Geometries) -> Invalid:
     return Invalid(rows, place[rows])
 
 
-def _not_finite(geometry: Geometries) -> NDArray[np.bool_]:
+def _not_finite(geometry: Geometries) -> Flags:
     coordinates, row = shapely.get_coordinates(geometry, return_index=True)
     bad = np.zeros(len(geometry), dtype=bool)
     bad[row[~np.isfinite(coordinates).all(axis=1)]] = True
@@ -66,7 +64,7 @@ def _not_finite(geometry: Geometries) -> NDArray[np.bool_]:
     return bad
 
 
-def _too_short(geometry: Geometries) -> NDArray[np.bool_]:
+def _too_short(geometry: Geometries) -> Flags:
     parts, row = shapely.get_parts(geometry, return_index=True)
     bad = np.zeros(len(geometry), dtype=bool)
     lines = np.isin(shapely.get_type_id(parts), (_LINE, _RING))

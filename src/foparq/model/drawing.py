@@ -4,7 +4,8 @@
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from foparq.model.items import Flags, Geometries, Items, Reals, Texts
+from foparq.columns import Flags, Geometries, Reals, Texts
+from foparq.model.items import Items
 from foparq.model.plane import Plane
 
 

@@ -13,8 +13,8 @@ from typing import Self
 import numpy as np
 import shapely
 
+from foparq.columns import Flags, Geometries, Index, Reals, Texts
 from foparq.geom.polylines import Polylines
-from foparq.model.items import Flags, Geometries, Index, Reals, Texts
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,14 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from foparq.columns import Flags, Geometries, Index, Integers, Texts
 from foparq.model.packing import pack_geometry, pack_texts, unpack_geometry, unpack_texts
 
-Geometries = NDArray[np.object_]  #: shapely geometries
-Texts = NDArray[np.object_]  #: str
-Flags = NDArray[np.bool_]
 INSERT_END, FIELD_END = "\x1e", "\x1f"  #: end one insert, and one word on it, in ``Items.holders``
-Index = NDArray[np.intp]
-Reals = NDArray[np.float64]
 
 
 class Role(StrEnum):
@@ -45,7 +41,7 @@ class Items:
     item: Texts  #: (n,) id unique in this drawing, stable under reordering: handle or feature id, made unique
     handle: Texts  #: (n,) DXF handle or feature id as written in the file; not a key
     inserts: Texts  #: (n,) handles of the block inserts from the outermost inward, ``"2F/3A"``; ``""`` at top level
-    colour: NDArray[np.int32]  #: (n,) AutoCAD colour index; 256 by layer, 0 by block
+    colour: Integers  #: (n,) AutoCAD colour index; 256 by layer, 0 by block
     closed: Flags  #: (n,) the file's own closed flag; whether the ends meet is a matter of geometry
     visible: Flags  #: (n,) false on off or frozen layers, for invisible entities and inside paper space
     paper: Flags  #: (n,) true in paper space

@@ -3,16 +3,16 @@
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
-Objects = NDArray[np.object_]
+from foparq.columns import Geometries, Texts
+
 Packed = tuple[object, ...]
 
 _NOTHING = -1  #: length of a geometry that is ``None``
 _SEPARATOR = "\0"
 
 
-def pack_geometry(geometry: Objects) -> Packed:
+def pack_geometry(geometry: Geometries) -> Packed:
     """Well-known binary of n geometries as one buffer and their lengths.
 
     Parameters
@@ -29,23 +29,23 @@ def pack_geometry(geometry: Objects) -> Packed:
     return b"".join(piece for piece in pieces if piece is not None), lengths
 
 
-def unpack_geometry(packed: Packed) -> Objects:
+def unpack_geometry(packed: Packed) -> Geometries:
     """Inverse of :func:`pack_geometry`."""
     data, lengths = packed
     assert isinstance(data, bytes)  # noqa: S101 - narrows the type
     assert isinstance(lengths, np.ndarray)  # noqa: S101
     ends = np.cumsum(np.maximum(lengths, 0))
-    pieces: Objects = np.empty(len(lengths), dtype=object)
+    pieces: Geometries = np.empty(len(lengths), dtype=object)
     pieces[:] = [
         data[end - length : end] if length >= 0 else None
         for length, end in zip(lengths.tolist(), ends.tolist(), strict=True)
     ]
     with np.errstate(invalid="ignore"):  # NaN coordinates are delivered as they are
-        geometry: Objects = shapely.from_wkb(pieces, on_invalid="ignore")
+        geometry: Geometries = shapely.from_wkb(pieces, on_invalid="ignore")
     return geometry
 
 
-def pack_texts(column: Objects) -> Packed:
+def pack_texts(column: Texts) -> Packed:
     """Texts as few distinct ones with codes, or joined, or as they are.
 
     Parameters
@@ -69,14 +69,14 @@ def pack_texts(column: Objects) -> Packed:
     return "plain", column
 
 
-def unpack_texts(packed: Packed) -> Objects:
+def unpack_texts(packed: Packed) -> Texts:
     """Inverse of :func:`pack_texts`."""
     how, first, *rest = packed
     if how == "codes":
         codes = rest[0]
         assert isinstance(first, list)  # noqa: S101 - narrows the type
         assert isinstance(codes, np.ndarray)  # noqa: S101
-        distinct: Objects = np.empty(len(first), dtype=object)
+        distinct: Texts = np.empty(len(first), dtype=object)
         distinct[:] = first
         return distinct[codes]
     if how == "joined":

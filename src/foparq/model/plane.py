@@ -5,11 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
+from foparq.columns import Coordinates, Geometries, Reals
 from foparq.errors import ManifestError
-
-Coordinates = NDArray[np.float64]
 
 _NAMED = {
     "xy": ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
@@ -38,7 +36,7 @@ class Plane:
     up: tuple[float, float, float]
 
     @property
-    def frame(self) -> NDArray[np.float64]:
+    def frame(self) -> Reals:
         """(3, 3) rows: right, up, depth (right-handed)."""
         right, up = np.asarray(self.right), np.asarray(self.up)
         return np.stack([right, up, np.cross(right, up)])
@@ -65,7 +63,7 @@ class Plane:
         return lifted
 
 
-def plane_of(stated: str | tuple[tuple[float, float, float], ...] | None, geometry: NDArray[np.object_]) -> Plane:
+def plane_of(stated: str | tuple[tuple[float, float, float], ...] | None, geometry: Geometries) -> Plane:
     """Plane as the manifest states it, or fitted to the items.
 
     Parameters
@@ -107,7 +105,7 @@ def plane_of(stated: str | tuple[tuple[float, float, float], ...] | None, geomet
     return Plane("given", _triple(origin), _triple(right_axis), _triple(up_axis))
 
 
-def _vertices(geometry: NDArray[np.object_]) -> Coordinates:
+def _vertices(geometry: Geometries) -> Coordinates:
     points = shapely.get_coordinates(geometry, include_z=True)
     points = np.nan_to_num(points, nan=np.nan, posinf=np.nan, neginf=np.nan)
     points[:, 2] = np.nan_to_num(points[:, 2])

@@ -3,7 +3,7 @@
 
 from dataclasses import dataclass
 
-from foparq.model.items import Flags, Index, Reals, Texts
+from foparq.columns import Flags, Index, Reals, Texts
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

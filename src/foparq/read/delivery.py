@@ -21,13 +21,13 @@ from foparq.model.plane import Plane, plane_of
 from foparq.model.tables import Checkpoints, Distances, FeatureList
 from foparq.profile.manifest import DrawingSection, Manifest, TableSection
 from foparq.profile.schema import Profile
-from foparq.read.dxf import read_dxf
-from foparq.read.gis import companions, read_gis
-from foparq.read.guard import guarded
-from foparq.read.paths import MOST_FILES, files_of, fit_to_read, inside, sha256_of
+from foparq.read.dxf.reader import read_dxf
+from foparq.read.gis.reader import companions, read_gis
+from foparq.read.guard.parent import guarded
+from foparq.read.guard.paths import MOST_FILES, files_of, fit_to_read, inside, sha256_of
+from foparq.read.guard.sniff import Format, format_of
 from foparq.read.raw import RawDrawing
-from foparq.read.sniff import Format, format_of
-from foparq.read.tables import read_checkpoints, read_distances, read_feature_list
+from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
 
 Progress = Callable[[str], None]
 S = TypeVar("S", bound=TableSection)

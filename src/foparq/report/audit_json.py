@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from foparq import __version__
+from foparq.columns import Index
 from foparq.evaluate.quality import Element, Reason
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import Source
-from foparq.model.items import Index
 from foparq.report.places import places
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import finding_sentence, reason_sentence, source_sentence

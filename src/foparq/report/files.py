@@ -12,7 +12,7 @@ from foparq.errors import WriteError
 from foparq.report.audit_json import write_audit_json, write_findings_jsonl
 from foparq.report.findings_gpkg import write_findings_gpkg
 from foparq.report.iso19157 import write_quality_xml
-from foparq.report.page import write_page
+from foparq.report.page.page import write_page
 from foparq.report.record import AuditRecord
 
 Writer = Callable[[AuditRecord, Path], None]

@@ -17,7 +17,7 @@ import pyogrio.raw
 import shapely
 from numpy.typing import NDArray
 
-from foparq.findings.hits import Geometries, Index
+from foparq.columns import Geometries, Index, Texts
 from foparq.findings.table import Severity
 from foparq.report.audit_json import written_rows
 from foparq.report.places import places
@@ -139,7 +139,7 @@ def _columns(record: AuditRecord, rows: Index) -> dict[str, NDArray[Any]]:
 _TEXT_COLUMNS = ("key", "rule", "name", "severity", "source", "layer", "item", "handle", "inserts", "other")
 
 
-def _texts(column: NDArray[np.object_]) -> NDArray[np.object_]:
+def _texts(column: Texts) -> Texts:
     texts = np.empty(len(column), dtype=object)
     texts[:] = [printable(str(value)) for value in column]
     return texts

@@ -4,7 +4,7 @@
 import numpy as np
 import shapely
 
-from foparq.findings.hits import Geometries, Reals
+from foparq.columns import Geometries, Reals
 
 
 def places(geometry: Geometries) -> Reals:

@@ -4,7 +4,8 @@
 import numpy as np
 
 from foparq.check.rule import rule
-from foparq.findings.hits import Hits, Index, hits
+from foparq.columns import Index
+from foparq.findings.hits import Hits, hits
 from foparq.geom.duplicates import duplicate_groups
 from foparq.model.inputs import Lines
 from foparq.units import Metres

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: MIT
+"""Bytes to an ezdxf document: as they are, or mended in memory, or not at all."""
+
+import gc
+import logging
+import mmap
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ezdxf import recover
+from ezdxf.filemanagement import readfile
+
+from foparq.errors import UnreadableError, UnsafeError
+from foparq.model.drawing import Repair
+from foparq.read.dxf.facts import LEAKS
+from foparq.read.guard.sniff import Format, format_of
+
+_BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
+_BROKEN: tuple[type[Exception], ...] = (*LEAKS, OSError)
+_SECTION = re.compile(rb"(?:^|\n)[ \t]*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n[ \t]*2[ \t]*\r?\n[ \t]*(\w+)")
+_NEAR_LINE = re.compile(r"near line:? (\d+)")
+_TAIL = 256  #: bytes within which the end marker must stand
+_R12 = "AC1009"
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """A document, and what it took to read it."""
+
+    document: Any  #: ezdxf.Drawing
+    repairs: tuple[Repair, ...]
+    written: frozenset[str] | None  #: handles that stand in the file; None if all of the document's do
+
+
+def load_document(path: Path, most_bytes: int) -> Loaded:
+    """Document of a DXF file.
+
+    Parameters
+    ----------
+    path : Path
+    most_bytes : int
+        Larger files are refused unread.
+
+    Returns
+    -------
+    Loaded
+
+    Raises
+    ------
+    UnreadableError
+        If it is no DXF file, is cut off, or cannot be mended.
+    UnsafeError
+        If it is too large.
+    """
+    binary = _sniff(path, most_bytes)
+    with _quiet():
+        try:
+            document = readfile(path)
+            repairs: tuple[Repair, ...] = ()
+        except _BROKEN as error:
+            if not binary:
+                _refuse_truncated(path)
+            document, repairs = _recover(path, error)
+    if not binary:
+        repairs += _second_sections(path)
+    return Loaded(document, repairs, None if binary else _written_handles(path, document))
+
+
+def _sniff(path: Path, most_bytes: int) -> bool:
+    file = path.name
+    try:
+        if not path.is_file():
+            raise UnreadableError("dxf.not-a-file", file=file)
+        size = path.stat().st_size
+        if size > most_bytes:
+            raise UnsafeError("dxf.too-large", file=file, value=size, limit=most_bytes)
+        if format_of(path) is not Format.DXF:
+            raise UnreadableError("dxf.not-dxf", file=file)
+        with path.open("rb") as stream:
+            return stream.read(len(_BINARY)) == _BINARY
+    except OSError as error:
+        raise UnreadableError("dxf.cannot-open", file=file, reason=error.strerror or str(error)) from error
+
+
+def _second_sections(path: Path) -> tuple[Repair, ...]:
+    # A reader takes the last of two sections of one name and forgets the first: half a drawing would pass for all.
+    with path.open("rb") as stream, mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as text:
+        names = _SECTION.findall(text)
+    twice = sorted({name.decode("ascii", "replace") for name in names if names.count(name) > 1})
+    return tuple(Repair(code="SECTION_TWICE", detail=f"section {name} occurs more than once") for name in twice)
+
+
+def _refuse_truncated(path: Path) -> None:
+    # A file that ends inside a section has lost content: half a drawing must not be audited as the whole.
+    with path.open("rb") as stream:
+        lines = sum(block.count(b"\n") for block in iter(lambda: stream.read(1 << 20), b"")) + 1
+        stream.seek(max(0, stream.tell() - _TAIL))
+        tail = stream.read().strip(b" \t\r\n\x00\x1a").splitlines()
+    if not tail or tail[-1].strip() not in (b"EOF", b"ENDSEC"):
+        raise UnreadableError("dxf.truncated", file=path.name, line=lines)
+
+
+def _recover(path: Path, first: Exception) -> tuple[Any, tuple[Repair, ...]]:
+    try:
+        document, auditor = recover.readfile(path)
+    except _BROKEN as error:
+        reason = _words(error) or _words(first)
+        near = _NEAR_LINE.search(str(error)) or _NEAR_LINE.search(str(first))
+        if near is not None:
+            raise UnreadableError("dxf.unreadable-line", file=path.name, line=int(near[1]), reason=reason) from error
+        raise UnreadableError("dxf.unreadable", file=path.name, reason=reason) from error
+    repairs = tuple(
+        Repair(code=_code(entry.code), detail=str(entry.message), handle=_handle(entry.entity))
+        for entry in (*auditor.errors, *auditor.fixes)
+    )
+    return document, repairs or (Repair(code=type(first).__name__, detail=_words(first)),)
+
+
+def _words(error: Exception) -> str:
+    return " ".join(str(error).split()) or type(error).__name__
+
+
+def _code(code: Any) -> str:  # noqa: ANN401 - an AuditError or a bare number
+    return str(getattr(code, "name", code))
+
+
+def _handle(entity: Any) -> str:  # noqa: ANN401
+    handle = getattr(getattr(entity, "dxf", None), "handle", None)
+    return handle if isinstance(handle, str) else ""
+
+
+def _written_handles(path: Path, document: Any) -> frozenset[str] | None:  # noqa: ANN401
+    """Handles that stand in a file of R12 or older, where they are optional and ezdxf makes up those that lack."""
+    if document.loaded_dxfversion is not None and document.loaded_dxfversion > _R12:
+        return None
+    with path.open("rb") as stream:
+        # Group codes and values alternate, line by line.
+        values = {value.strip() for code, value in zip(stream, stream, strict=False) if code.strip() == b"5"}
+    return frozenset(value.decode("ascii", "replace") for value in values if value)
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    # ezdxf reports to its log what is reported as repairs here; collecting garbage amid a parse costs a third of it.
+    logger = logging.getLogger("ezdxf")
+    disabled, collecting = logger.disabled, gc.isenabled()
+    logger.disabled = True
+    gc.disable()
+    try:
+        yield
+    finally:
+        logger.disabled = disabled
+        if collecting:
+            gc.enable()

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: MIT
+"""GeoPackage: plain tables of features, one by one."""
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from pyogrio.errors import GeometryError
+
+from foparq.errors import ManifestError, UnreadableError
+from foparq.model.drawing import Skipped
+from foparq.model.items import Items
+from foparq.profile.schema import LimitsSpec
+from foparq.read.gis.crs import unit_of
+from foparq.read.gis.gpkg_curves import STRAIGHT, chords_of
+from foparq.read.gis.gpkg_safety import Contents, Table, inspect
+from foparq.read.gis.items import Layer, items_of
+from foparq.read.gis.layers import GDAL_ERRORS, Taken, first_line, hold, read_layer
+
+_INSPECTION = 30.0  #: seconds to look at the register, far more than any honest one needs
+#: GDAL names its placeholder for "no table of features at all" so
+_PLACEHOLDER = "ogr_empty_table"
+_INTERPRETED = frozenset(':"?#%')  #: signs in a path that GDAL or SQLite would interpret
+_NOWHERE = (np.nan, np.nan, np.nan, np.nan)
+
+
+def read_gpkg(path: Path, *, limits: LimitsSpec, sagitta: float, unit: str | None, wanted: tuple[str, ...]) -> Taken:
+    """Tables of features of a GeoPackage.
+
+    Parameters
+    ----------
+    path : Path
+        A file that starts as SQLite files do.
+    limits : LimitsSpec
+        Features, vertices and seconds.
+    sagitta : float, metres
+        Greatest distance between an arc and its chords.
+    unit : str or None
+        Unit as stated by the user.
+    wanted : tuple of str
+        Tables to read, in any case of letters; all if empty.
+
+    Returns
+    -------
+    Taken
+        Tables in the order of their names, rows in the order of their ids.
+
+    Raises
+    ------
+    UnreadableError
+        If the file is broken, or holds no table of features.
+    UnsafeError
+        If it holds more than the limits allow, or its register is a program.
+    ManifestError
+        If a table is wanted that is not there.
+    """
+    contents = inspect(path, seconds=min(_INSPECTION, limits.seconds))
+    tables = _wanted(path, contents, wanted)
+    hold(path, "read.too-many-items", sum(table.rows for table in tables), limits.entities)
+    asked = {table.name for table in tables}
+    skipped = list(contents.skipped)
+    skipped += [
+        Skipped(reason="not-asked", kind=table.geometry_type, layer=table.name, count=table.rows)
+        for table in contents.tables
+        if table.name not in asked and table.name != _PLACEHOLDER
+    ]
+    pieces: list[tuple[Items, str]] = []
+    with _named(path) as name:
+        for table in tables:
+            if table.rows == 0:
+                continue
+            layer = _layer(path, name, table)
+            if layer is None:
+                lost = Skipped(reason="unsupported-layer", kind=table.geometry_type, layer=table.name, count=table.rows)
+                skipped.append(lost)
+                continue
+            items, odd = items_of(_straight(path, table, layer, limits, sagitta, unit), prefix=f"{table.name}:")
+            pieces.append((items, layer.system))
+            skipped += odd
+    return Taken(
+        pieces=tuple(pieces), version=contents.version, encoding="UTF-8", skipped=tuple(skipped), layers=contents.layers
+    )  # fmt: skip
+
+
+def _layer(path: Path, name: str, table: Table) -> Layer | None:
+    # None if the table is declared of a type that is no simple feature.
+    try:
+        layer = read_layer(name, table.name, table.rows, undefined=table.undefined_crs)
+    except GeometryError:
+        return None
+    except GDAL_ERRORS as error:
+        raise UnreadableError("read.gpkg-broken", file=path.name, value=first_line(error)) from None
+    if len(layer.fid) != table.rows:
+        raise UnreadableError(
+            "read.rows-lost", file=path.name, key=table.name, value=len(layer.fid), example=table.rows
+        )
+    return layer
+
+
+def _straight(path: Path, table: Table, layer: Layer, limits: LimitsSpec, sagitta: float, unit: str | None) -> Layer:
+    if table.geometry_type in STRAIGHT:
+        return layer
+    metres = unit_of((layer.system,), _NOWHERE, unit).metres
+    in_units = None if metres is None else sagitta / metres
+    chords = chords_of(path, table, sagitta=in_units, vertices=limits.vertices, seconds=limits.seconds)
+    if not chords:
+        return layer
+    wkb = layer.wkb.copy()
+    row = {fid: number for number, fid in enumerate(layer.fid.tolist())}
+    for fid, straight in chords.items():
+        if fid in row:
+            wkb[row[fid]] = straight
+    return replace(layer, wkb=wkb)
+
+
+def _wanted(path: Path, contents: Contents, wanted: tuple[str, ...]) -> list[Table]:
+    readable = [table for table in contents.tables if table.name != _PLACEHOLDER]
+    if not readable:
+        found = ", ".join(f"{record.layer} ({record.reason})" for record in contents.skipped) or "-"
+        raise UnreadableError("read.gpkg-no-features", file=path.name, value=found)
+    if not wanted:
+        return readable
+    by_name = {table.name.casefold(): table for table in readable}
+    for name in wanted:
+        if name.casefold() not in by_name:
+            known = ", ".join(table.name for table in readable)
+            raise ManifestError(
+                "manifest.layer-unknown",
+                file=path.name,
+                value=name,
+                known=known,
+                example=f'layers = ["{readable[0].name}"]',
+            )
+    return [by_name[key] for key in sorted({name.casefold() for name in wanted})]
+
+
+@contextmanager
+def _named(path: Path) -> Iterator[str]:
+    # With its prefix, GDAL opens a GeoPackage as such or not at all. Names with signs that it would interpret are
+    # reached through a link.
+    full = path.resolve()
+    if os.name == "nt" or not _INTERPRETED & set(str(full)):
+        yield f"GPKG:{full}"
+        return
+    with tempfile.TemporaryDirectory(prefix="foparq-") as folder:
+        link = Path(folder) / "drawing.gpkg"
+        link.symlink_to(full)
+        yield f"GPKG:{link}"

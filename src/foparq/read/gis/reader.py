@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: MIT
+"""GeoPackage, Shapefile and GeoJSON through GDAL, as little of it as possible.
+
+Rows become items by these rules:
+
+- One item a part of a feature. ``item`` is ``"table:fid"`` in a GeoPackage, ``"fid"`` elsewhere, with ``".part"`` added
+  where a feature has several parts; ``handle`` is the feature id as written.
+- ``layer`` is the name of the table. Where the table has a text column called ``layer`` or ``camada``, as CAD programs
+  export it, its value is the layer; rows without a value keep the name of the table.
+- Rows of a CAD export with ``PaperSpace`` true are in paper space.
+- A feature without geometry stays, with ``None``. Measures (M) are dropped, heights are kept, nothing is repaired.
+- Arcs become chords of the stated sagitta.
+"""
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import shapely
+from pyogrio.errors import GeometryError
+
+from foparq.errors import UnreadableError, UnsafeError
+from foparq.model.drawing import Reading
+from foparq.model.items import Items
+from foparq.profile.schema import LimitsSpec
+from foparq.read.gis.crs import describe, unit_of
+from foparq.read.gis.gpkg import read_gpkg
+from foparq.read.gis.items import items_of, join_items
+from foparq.read.gis.layers import GDAL_ERRORS, Taken, first_line, hold, read_layer
+from foparq.read.guard.sniff import Format, format_of
+from foparq.read.raw import RawDrawing
+
+#: endings of the files that belong to a Shapefile, beside ``.shp``
+SHAPEFILE_ENDINGS = frozenset({".shx", ".dbf", ".prj", ".cpg", ".qix", ".qpj", ".sbn", ".sbx", ".qmd"})
+_SHX_HEADER, _SHX_RECORD = 100, 8  #: bytes
+_LONGEST_NAME = 40  #: letters of the name of an encoding
+
+
+def read_gis(
+    path: Path, *, limits: LimitsSpec, sagitta: float, unit: str | None, layers: tuple[str, ...]
+) -> RawDrawing:
+    """Drawing of a GeoPackage, Shapefile or GeoJSON file.
+
+    Parameters
+    ----------
+    path : Path
+        A regular file; for a Shapefile the ``.shp``, with its companions beside it.
+    limits : LimitsSpec
+        Features and vertices beyond which the file is refused.
+    sagitta : float, metres
+        Greatest distance between an arc and the chords that replace it. If nobody says what a drawing unit is, one
+        ten-thousandth of each arc's radius instead. Only GeoPackages hold arcs.
+    unit : str or None
+        Unit as stated by the user; it wins over the reference system.
+    layers : tuple of str
+        Tables of a GeoPackage to read; all if empty. Other formats have one.
+
+    Returns
+    -------
+    RawDrawing
+
+    Raises
+    ------
+    UnreadableError
+        If the file is broken, incomplete, or of another format.
+    UnsafeError
+        If it holds more than the limits allow, or runs programs.
+    ManifestError
+        If a table is asked for that is not there.
+    """
+    kind = format_of(path)
+    with warnings.catch_warnings():
+        # Dropped measures and fields without a type: nothing that is read depends on them.
+        warnings.simplefilter("ignore")
+        if kind is Format.GPKG:
+            taken = read_gpkg(path, limits=limits, sagitta=sagitta, unit=unit, wanted=layers)
+        elif kind is Format.SHAPEFILE:
+            taken = _read_shapefile(path, limits)
+        elif kind is Format.GEOJSON:
+            taken = _read_geojson(path, limits)
+        else:
+            raise UnreadableError("read.not-gis", file=path.name, value=kind.value)
+    items = join_items([items for items, _ in taken.pieces])
+    hold(path, "read.too-many-vertices", int(shapely.get_num_coordinates(items.geometry).sum()), limits.vertices)
+    systems = tuple(dict.fromkeys(system for part, system in taken.pieces if len(part)))
+    reading = Reading(
+        version=taken.version,
+        encoding=taken.encoding,
+        skipped=taken.skipped,
+        layers=taken.layers,
+        crs=", ".join(describe(text) for text in systems if text),
+    )
+    return RawDrawing(items=items, reading=reading, unit=unit_of(systems or ("",), _bounds(items), unit))
+
+
+def companions(path: Path) -> dict[str, Path]:
+    """Files that belong to a Shapefile, by ending in small letters: ``{".dbf": ...}``."""
+    return {
+        other.suffix.casefold(): other
+        for other in sorted(path.parent.iterdir())
+        if other.stem == path.stem and other.suffix.casefold() in SHAPEFILE_ENDINGS and other.is_file()
+    }
+
+
+def _read_shapefile(path: Path, limits: LimitsSpec) -> Taken:
+    beside = companions(path)
+    for other in beside.values():
+        # GDAL would follow a link wherever it leads.
+        if other.resolve().parent != path.resolve().parent:
+            raise UnsafeError("read.path-outside", file=other.name, example=path.with_suffix(".dbf").name)
+        hold(path, "read.too-large", other.stat().st_size, limits.bytes)
+    missing = [ending for ending in (".shx", ".dbf") if ending not in beside]
+    if missing:
+        raise UnreadableError(
+            "read.shp-incomplete", file=path.name, value=" ".join(missing), example=path.with_suffix(missing[0]).name
+        )
+    _same_rows(path, beside)
+    encoding = ""
+    if ".cpg" in beside:
+        with beside[".cpg"].open("rb") as stream:
+            encoding = stream.read(_LONGEST_NAME).decode("ascii", "replace").strip()
+    return _single(
+        path, str(path.resolve()), limits, undefined=".prj" not in beside, version="ESRI Shapefile", encoding=encoding
+    )
+
+
+def _same_rows(path: Path, beside: dict[str, Path]) -> None:
+    # The index says how many shapes are read: one of another day would lose some without a word.
+    shapes = (beside[".shx"].stat().st_size - _SHX_HEADER) // _SHX_RECORD
+    with beside[".dbf"].open("rb") as stream:
+        head = stream.read(12)
+    # Number of rows, bytes of the header, bytes of a row; rows that are cut off do not count.
+    stated, start, width = (int.from_bytes(head[a:b], "little") for a, b in ((4, 8), (8, 10), (10, 12)))
+    rows = min(stated, max(beside[".dbf"].stat().st_size - start, 0) // max(width, 1))
+    if shapes != rows:
+        raise UnreadableError("read.shp-mismatch", file=path.name, value=shapes, other=rows)
+
+
+def _read_geojson(path: Path, limits: LimitsSpec) -> Taken:
+    return _single(path, f"GeoJSON:{path.resolve()}", limits, undefined=False, version="GeoJSON", encoding="UTF-8")
+
+
+def _single(path: Path, name: str, limits: LimitsSpec, *, undefined: bool, version: str, encoding: str) -> Taken:
+    # Formats of one layer. One feature more than allowed is asked for, so that too many are noticed.
+    try:
+        layer = read_layer(name, 0, limits.entities + 1, undefined=undefined, called=path.stem)
+    except (GeometryError, *GDAL_ERRORS) as error:
+        raise UnreadableError("read.gis-broken", file=path.name, value=first_line(error)) from None
+    hold(path, "read.too-many-items", len(layer.fid), limits.entities)
+    items, skipped = items_of(layer, prefix="")
+    return Taken(
+        pieces=((items, layer.system),), version=version, encoding=encoding, skipped=skipped, layers=(path.stem,)
+    )  # fmt: skip
+
+
+def _bounds(items: Items) -> tuple[float, float, float, float]:
+    # Infinite coordinates are a fault of one item and say nothing of the drawing.
+    points = shapely.get_coordinates(items.geometry)
+    points = points[np.isfinite(points).all(axis=1)]
+    if not len(points):
+        return (np.nan, np.nan, np.nan, np.nan)
+    (xmin, ymin), (xmax, ymax) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    return xmin, ymin, xmax, ymax

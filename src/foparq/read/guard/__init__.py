@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""What may be opened, and readers bounded in time and memory."""

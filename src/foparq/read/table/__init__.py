@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Tables of checkpoints, distances and features."""

@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: MIT
+"""Findings as the page lists them: by rule, numbered, with anchors that join list and drawing."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from foparq.columns import Index, Reals
+from foparq.findings.outcome import Outcome
+from foparq.findings.table import Findings, Severity
+from foparq.model.drawing import Drawing
+from foparq.report.page.drawing import Picture, marks_at
+from foparq.report.places import places
+from foparq.report.record import AuditRecord
+from foparq.report.sentences import finding_sentence, outcome_scope, parameters_sentence, rule_meaning
+from foparq.report.words import Words, printable
+
+WRITTEN = 500  #: findings of one rule that the page lists
+IN_ALL = 3000  #: findings that the page lists before every rule gets less
+_RANK = {severity.value: rank for rank, severity in enumerate(Severity)}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Group:
+    """All findings of one rule."""
+
+    rule: str
+    name: str
+    severity: str  #: the gravest of its findings
+    rows: Index  #: rows of the findings, gravest first
+    shown: Index  #: those that are listed
+    first: int  #: number of the first one listed
+    outcomes: tuple[Outcome, ...]
+
+    @property
+    def found(self) -> int:
+        """Findings counted; never less than those in the table."""
+        return max(sum(outcome.found for outcome in self.outcomes), len(self.rows))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowView:
+    """One listed finding in one language."""
+
+    number: int
+    anchor: str
+    mark: str  #: anchor of its mark in the drawing; ``""`` if it has no place
+    place: str
+    source: str
+    layer: str
+    handle: str
+    inserts: tuple[str, ...]
+    other: str
+    size: str
+    severity: str
+    sentence: str
+    waived: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GroupView:
+    """One rule with its findings in one language."""
+
+    code: str
+    name: str
+    anchor: str
+    severity: str
+    title: str
+    meaning: str
+    mend: str
+    found: str
+    counted: int
+    tallies: tuple[str, ...]
+    tolerances: str
+    preview: bool
+    rows: tuple[RowView, ...]
+    unlisted: str  #: how many are not listed; ``""`` if all are
+    columns: frozenset[str]  #: columns that hold anything
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MarkView:
+    """One mark on one drawing in one language."""
+
+    anchor: str
+    row: str  #: anchor of the row in the list
+    number: int
+    severity: str
+    x: int  #: cells
+    y: int
+    window: int  #: half the width of the view that shows it well, cells
+    title: str
+
+
+def group_findings(record: AuditRecord) -> tuple[Group, ...]:
+    """Findings by rule: faults before notes, the gravest and most frequent first."""
+    findings = record.findings
+    rank = np.fromiter((_RANK[value] for value in findings.severity), dtype=np.intp, count=len(findings))
+    by_rule = {code: np.flatnonzero(findings.rule == code) for code in sorted(set(findings.rule))}
+    ordered = sorted(by_rule, key=lambda code: (rank[by_rule[code]].min(), -len(by_rule[code]), code))
+    each = WRITTEN if len(findings) <= IN_ALL else min(WRITTEN, max(50, IN_ALL // len(ordered)))
+    groups: list[Group] = []
+    first = 1
+    for code in ordered:
+        rows = by_rule[code][np.argsort(rank[by_rule[code]], kind="stable")]
+        shown = rows[:each]
+        groups.append(
+            Group(
+                rule=code,
+                name=str(findings.name[rows[0]]),
+                severity=str(findings.severity[rows[0]]),
+                rows=rows,
+                shown=shown,
+                first=first,
+                outcomes=tuple(run for run in record.outcomes if run.rule == code),
+            )
+        )
+        first += len(shown)
+    return tuple(groups)
+
+
+def shown_rows(groups: Sequence[Group]) -> Index:
+    """Rows of the findings that the page lists, in the order of their numbers."""
+    return np.concatenate([np.empty(0, dtype=np.intp), *(group.shown for group in groups)])
+
+
+def anchors(findings: Findings, shown: Index) -> dict[int, str]:
+    """Anchor of every listed finding: its key; a key that comes again gets an ordinal."""
+    seen: dict[str, int] = {}
+    named: dict[int, str] = {}
+    for row in shown.tolist():
+        key = "".join(c if c.isalnum() or c in "-_" else "-" for c in str(findings.key[row]))
+        seen[key] = seen.get(key, 0) + 1
+        named[row] = key if seen[key] == 1 else f"{key}-{seen[key]}"
+    return named
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Listing:
+    """What the views of findings share between languages."""
+
+    findings: Findings
+    groups: tuple[Group, ...]
+    names: dict[int, str]  #: row to anchor
+    spots: Reals  #: (n, 3) place in file coordinates
+    sheet: Reals  #: (n, 2) place of the mark, metres on the sheet
+    drawings: dict[str, Drawing]
+
+
+def listing_of(record: AuditRecord) -> Listing:
+    """Findings grouped, numbered and placed."""
+    groups = group_findings(record)
+    findings = record.findings
+    return Listing(
+        findings=findings,
+        groups=groups,
+        names=anchors(findings, shown_rows(groups)),
+        spots=places(findings.where),
+        sheet=marks_at(findings.sheet),
+        drawings={drawing.path: drawing for drawing in record.delivery.drawings},
+    )
+
+
+def group_view(words: Words, listing: Listing, group: Group, suffix: str) -> GroupView:
+    """One rule and its findings for the page.
+
+    Parameters
+    ----------
+    words : Words
+    listing : Listing
+    group : Group
+    suffix : str
+        What distinguishes the anchors of this language.
+    """
+    rows = tuple(_row_view(words, listing, row, group.first + n, suffix) for n, row in enumerate(group.shown.tolist()))
+    many_files = len({row.source for row in rows}) > 1
+    held = {name for name in ("place", "layer", "handle", "other") if any(getattr(row, name) for row in rows)}
+    if many_files:
+        held.add("source")
+    if any(row.size for row in rows):
+        held.add("size")
+    found = group.found
+    unlisted = found - len(rows)
+    return GroupView(
+        code=group.rule,
+        name=group.name,
+        anchor=f"r-{group.rule}{suffix}",
+        severity=group.severity,
+        title=words(f"rules.{group.rule}.title"),
+        meaning=rule_meaning(words, group.rule),
+        mend=words(f"rules.{group.rule}.mend"),
+        found=words.count(found),
+        counted=found,
+        tallies=tuple(tally(words, run) for run in group.outcomes if run.found),
+        tolerances="; ".join(dict.fromkeys(parameters_sentence(words, run.parameters) for run in group.outcomes)),
+        preview=any(run.preview for run in group.outcomes),
+        rows=rows,
+        unlisted=words("report.findings.unlisted", shown=words.count(len(rows)), total=words.count(found))
+        if unlisted
+        else "",
+        columns=frozenset(held),
+    )
+
+
+def tally(words: Words, run: Outcome) -> str:
+    """Findings over items checked, of one run: ``"fachada.dxf: 12 on 10 of 976 items (1.02 %)"``."""
+    return words(
+        "report.findings.tally" if run.checked and len(run.faulty) else "report.findings.tally-file",
+        scope=outcome_scope(words, run),
+        found=words.count(run.found),
+        faulty=words.count(len(run.faulty)),
+        checked=words.count(run.checked),
+        rate=(len(run.faulty) / run.checked if run.checked else 0.0, "1"),
+    )
+
+
+def mark_views(words: Words, listing: Listing, picture: Picture, suffix: str) -> tuple[MarkView, ...]:
+    """Marks of one drawing, notes first so that faults lie on top."""
+    findings = listing.findings
+    numbered = [(group.first + n, row) for group in listing.groups for n, row in enumerate(group.shown.tolist())]
+    mine = [(number, row) for number, row in numbered if _has_mark(listing, picture, row)]
+    marks = []
+    for number, row in sorted(mine, key=lambda pair: (-_RANK[findings.severity[pair[1]]], pair[0])):
+        x, y = picture.cells(listing.sheet[row : row + 1])[0]
+        name = listing.names[row]
+        title = words(
+            "report.drawing.mark",
+            number=words.count(number),
+            rule=words(f"rules.{findings.rule[row]}.title"),
+            layer=findings.layer[row] or "–",
+            sentence=finding_sentence(words, findings, row),
+        )
+        marks.append(
+            MarkView(
+                anchor=f"m-{name}{suffix}",
+                row=f"f-{name}{suffix}",
+                number=number,
+                severity=str(findings.severity[row]),
+                x=int(x),
+                y=int(y),
+                window=_window(findings, picture, row),
+                title=title,
+            )
+        )
+    return tuple(marks)
+
+
+def _has_mark(listing: Listing, picture: Picture, row: int) -> bool:
+    return listing.findings.source[row] == picture.drawing.path and bool(np.isfinite(listing.sheet[row]).all())
+
+
+def _window(findings: Findings, picture: Picture, row: int) -> int:
+    left, low, right, high = findings.sheet[row].bounds
+    size = float(findings.size[row]) if findings.unit[row] == "m" and np.isfinite(findings.size[row]) else 0.0
+    half = max(1.5 * max(right - left, high - low), 25 * size, picture.width * picture.quantum / 400)
+    return min(int(np.ceil(half / picture.quantum)), picture.width // 2)
+
+
+def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str) -> RowView:
+    findings = listing.findings
+    name = listing.names[row]
+    marked = bool(np.isfinite(listing.sheet[row]).all()) and findings.source[row] in listing.drawings
+    size = float(findings.size[row])
+    counted_once = findings.unit[row] == "items" and size == 1
+    return RowView(
+        number=number,
+        anchor=f"f-{name}{suffix}",
+        mark=f"m-{name}{suffix}" if marked else "",
+        place=_place(words, listing, row),
+        source=printable(str(findings.source[row])),
+        layer=printable(str(findings.layer[row])),
+        handle=printable(str(findings.handle[row] or findings.item[row])),
+        inserts=tuple(printable(part) for part in str(findings.inserts[row]).split("/") if part),
+        other=printable(str(findings.other[row])),
+        size="" if counted_once or not np.isfinite(size) else words.quantity(size, str(findings.unit[row])),
+        severity=str(findings.severity[row]),
+        sentence=finding_sentence(words, findings, row),
+        waived=bool(findings.waived[row]),
+    )
+
+
+def _place(words: Words, listing: Listing, row: int) -> str:
+    spot = listing.spots[row]
+    if not np.isfinite(spot[:2]).all():
+        return ""
+    drawing = listing.drawings.get(str(listing.findings.source[row]))
+    metres = drawing.unit.metres if drawing is not None else None
+    # A tenth of a millimetre on the object, whatever the drawing unit.
+    decimals = 3 if metres is None else int(np.clip(round(4 + np.log10(metres)), 0, 8))
+    point = "," if words.language == "pt-BR" else "."
+    return "; ".join(f"{value + 0.0:.{decimals}f}".replace(".", point) for value in spot if np.isfinite(value))

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: MIT
+"""``report.html``: one file for people, offline, printable, in both languages."""
+
+import base64
+import hashlib
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from foparq.findings.table import Severity
+from foparq.report.page.coverage import Coverage, coverage
+from foparq.report.page.drawing import GROUPS, Picture, picture_of
+from foparq.report.page.findings import GroupView, Listing, MarkView, group_view, listing_of, mark_views, shown_rows
+from foparq.report.page.tables import ElementView, Headline, InputView, element_views, headline, input_views
+from foparq.report.record import AuditRecord
+from foparq.report.templates import environment, shipped_text
+from foparq.report.words import LANGUAGES, Words, printable
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FigureView:
+    """One drawing in one language."""
+
+    picture: Picture
+    file: str
+    about: str
+    notes: tuple[str, ...]
+    marks: tuple[MarkView, ...]
+    bar: tuple[float, str]  #: length of the scale bar as a share of the width, and its lettering
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class View:
+    """The whole page in one language."""
+
+    words: Words
+    language: str
+    suffix: str  #: of anchors
+    headline: Headline
+    elements: tuple[ElementView, ...]
+    figures: tuple[FigureView, ...]
+    faults: tuple[GroupView, ...]
+    notes: tuple[GroupView, ...]
+    coverage: Coverage
+    inputs: tuple[InputView, ...]
+
+
+def write_page(record: AuditRecord, path: Path) -> None:
+    """Write ``report.html``.
+
+    Parameters
+    ----------
+    record : AuditRecord
+        The page is complete in both languages; that of the record is shown first.
+    path : Path
+
+    Notes
+    -----
+    The same record gives the same bytes.
+    """
+    path.write_text(page(record), encoding="utf-8", newline="\n")
+
+
+def page(record: AuditRecord) -> str:
+    """The page as text."""
+    # Hostile coordinates overflow; what comes of them is clipped or not drawn.
+    with np.errstate(over="ignore", invalid="ignore"):
+        listing = listing_of(record)
+        shown = shown_rows(listing.groups)
+        pictures = tuple(
+            picture_of(drawing, number, record.findings, shown)
+            for number, drawing in enumerate(record.delivery.drawings, start=1)
+        )
+    languages = sorted(LANGUAGES, key=lambda language: language != record.language)
+    views = [_view(record, listing, pictures, language, languages[0]) for language in languages]
+    return (
+        environment("page")
+        .get_template("page.html.j2")
+        .render(
+            record=record,
+            views=views,
+            pictures=pictures,
+            severities=[severity.value for severity in Severity],
+            groups=GROUPS,
+            style_hash=_hash("page.css"),
+            script_hash=_hash("page.js"),
+            printable=printable,
+        )
+    )
+
+
+def _hash(name: str) -> str:
+    digest = hashlib.sha256(str(shipped_text("page", name)).encode()).digest()
+    return f"sha256-{base64.b64encode(digest).decode('ascii')}"
+
+
+def _view(record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], language: str, first: str) -> View:
+    words = Words(language)
+    suffix = "" if language == first else f"--{language[:2]}"
+    view = partial(group_view, words, listing, suffix=suffix)
+    return View(
+        words=words,
+        language=language,
+        suffix=suffix,
+        headline=headline(words, record, listing.groups, suffix),
+        elements=element_views(words, record),
+        figures=tuple(_figure(words, listing, picture, suffix) for picture in pictures),
+        faults=tuple(view(group) for group in listing.groups if group.severity != Severity.NOTE),
+        notes=tuple(view(group) for group in listing.groups if group.severity == Severity.NOTE),
+        coverage=coverage(words, record, pictures),
+        inputs=input_views(words, record.delivery.sources),
+    )
+
+
+def _figure(words: Words, listing: Listing, picture: Picture, suffix: str) -> FigureView:
+    drawing = picture.drawing
+    about: dict[str, Any] = {
+        "items": words.count(len(drawing.items)),
+        "layers": words.count(len(picture.layers)),
+        "plane": "xy" if drawing.plane.name == "assumed" else drawing.plane.name,
+        "unit": drawing.unit.name or words("report.drawing.unit-unknown"),
+        "facade": drawing.facade,
+    }
+    marks = mark_views(words, listing, picture, suffix)
+    return FigureView(
+        picture=picture,
+        file=printable(drawing.path),
+        marks=marks,
+        bar=_bar(words, picture),
+        about=words("report.drawing.about-facade" if drawing.facade else "report.drawing.about", **about),
+        notes=_notes(words, listing, picture, len(marks)),
+    )
+
+
+def _notes(words: Words, listing: Listing, picture: Picture, marked: int) -> tuple[str, ...]:
+    listed = [
+        row for group in listing.groups for row in group.shown if listing.findings.source[row] == picture.drawing.path
+    ]
+    notes = [words(f"report.drawing.{picture.form}")]
+    if picture.culprits:
+        notes.append(words("report.drawing.culprits"))
+    if picture.bands or picture.areas:
+        notes.append(words("report.drawing.spans"))
+    left_out = picture.form == "toned"
+    counted = {
+        "hidden-left-out" if left_out else "hidden": picture.hidden,
+        "paper": picture.paper,
+        "outside": picture.outside,
+        "unmarked": len(listed) - marked,
+    }
+    notes.extend(
+        words(f"report.drawing.{name}", count=words.count(number)) for name, number in counted.items() if number
+    )
+    if any(group.found > len(group.shown) for group in listing.groups):
+        notes.append(words("report.drawing.unlisted"))
+    return tuple(notes)
+
+
+def _bar(words: Words, picture: Picture) -> tuple[float, str]:
+    """Scale bar: the largest of 1, 2, 5 times a power of ten that takes at most a fifth of the width."""
+    width = picture.width * picture.quantum
+    decade = 10.0 ** np.floor(np.log10(width / 5))
+    length = float(max(step * decade for step in (1, 2, 5) if step * decade <= width / 5))
+    if picture.drawing.unit.metres is None:
+        return length / width, f"{length:g} {words('report.drawing.unit-bar')}"
+    return length / width, bar_text(words, length)
+
+
+def bar_text(words: Words, metres: float) -> str:
+    """Round length without needless decimals: ``"5 m"``, ``"20 cm"``, ``"2 mm"``."""
+    for name, length in (("km", 1000.0), ("m", 1.0), ("cm", 0.01), ("mm", 0.001)):
+        if metres >= length * 0.999:
+            return f"{words.count(round(metres / length))} {name}"
+    return words.quantity(metres, "m")

@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: MIT
+"""The page's headline, table of quality elements and lists of files, in one language."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+
+from foparq.evaluate.quality import Element, ElementStatus, Verdict
+from foparq.findings.outcome import Status
+from foparq.findings.table import Severity
+from foparq.model.delivery import Source, SourceStatus
+from foparq.report.page.findings import Group
+from foparq.report.record import AuditRecord
+from foparq.report.sentences import parameter_name, reason_sentence, source_sentence
+from foparq.report.words import Words, printable
+
+#: an element that leaves the question open
+OPEN = frozenset({ElementStatus.UNDECIDED, ElementStatus.NOT_ASSESSED})
+TAKEN_IN = frozenset({SourceStatus.READ, SourceStatus.RECOVERED})
+_UNJUDGED = frozenset({Status.NOT_RUN, Status.CRASHED})
+_COUNTED = frozenset({"drawing", "checkpoints", "distances", "features"})  #: roles whose items or rows are told
+_FIRST = 3  #: kinds of fault that the headline names
+_FILES_NAMED = 3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cause:
+    """One of the most frequent faults, and what to do about it."""
+
+    anchor: str
+    title: str
+    found: str
+    mend: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Headline:
+    """The verdict and what a reader must know first."""
+
+    mark: str  #: ``accepted``, ``rejected``, ``undecided``; for loose files ``clean``, ``faulty`` or ``undecided``
+    title: str
+    sentence: str
+    why: tuple[str, ...]
+    gaps: tuple[str, ...]  #: what was not checked, in a few words
+    causes: tuple[Cause, ...]
+    facts: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ElementView:
+    """One quality element."""
+
+    id: str
+    element: str
+    measure: str
+    scope: str
+    value: str
+    limit: str
+    n: str
+    status: str
+    word: str
+    why: tuple[str, ...]
+    required: bool
+    parameters: tuple[tuple[str, str], ...]
+    details: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class InputView:
+    """One delivered file."""
+
+    path: str
+    role: str
+    status: str
+    word: str
+    sentence: str
+    bytes: str
+    sha256: str
+
+
+def headline(words: Words, record: AuditRecord, groups: Sequence[Group], suffix: str) -> Headline:
+    """What stands on top of the page."""
+    faults = [group for group in groups if group.severity != Severity.NOTE]
+    mark, sentence = _loose(words, record, faults) if record.loose else _judged(words, record)
+    causes = sorted(faults, key=lambda group: -group.found)[:_FIRST]
+    return Headline(
+        mark=mark,
+        sentence=sentence,
+        title=title(words, record),
+        why=() if record.loose else tuple(reason_sentence(words, reason) for reason in record.quality.why),
+        gaps=_gaps(words, record),
+        causes=tuple(
+            Cause(
+                anchor=f"r-{group.rule}{suffix}",
+                title=words(f"rules.{group.rule}.title"),
+                found=words.count(group.found),
+                mend=words(f"rules.{group.rule}.mend"),
+            )
+            for group in causes
+        ),
+        facts=_facts(words, record),
+    )
+
+
+def title(words: Words, record: AuditRecord) -> str:
+    """Title of the delivery; for loose files their names."""
+    if record.delivery.title:
+        return printable(record.delivery.title)
+    names = [printable(PurePosixPath(source.path).name or source.path) for source in record.delivery.sources]
+    if not record.loose or not names:
+        return words("report.page.untitled")
+    files = ", ".join(names[:_FILES_NAMED])
+    more = len(names) - _FILES_NAMED
+    return words("report.page.and-more", files=files, more=words.count(more)) if more > 0 else files
+
+
+def _judged(words: Words, record: AuditRecord) -> tuple[str, str]:
+    verdict = record.quality.verdict
+    return verdict.value, words(f"report.headline.{verdict.value}")
+
+
+def _loose(words: Words, record: AuditRecord, faults: Sequence[Group]) -> tuple[str, str]:
+    ran = any(outcome.status in {Status.CLEAN, Status.FAULTY} for outcome in record.outcomes)
+    total = sum(group.found for group in faults)
+    if total:
+        return "faulty", words(f"report.headline.loose-{'one' if total == 1 else 'many'}", count=words.count(total))
+    if not ran:
+        return Verdict.UNDECIDED.value, words("report.headline.loose-nothing")
+    return "clean", words("report.headline.loose-none")
+
+
+def _gaps(words: Words, record: AuditRecord) -> tuple[str, ...]:
+    numbers = {
+        "files": sum(source.status not in TAKEN_IN for source in record.delivery.sources),
+        # Loose files are not asked for what only a delivery holds.
+        "elements": 0 if record.loose else sum(element.status in OPEN for element in record.quality.elements),
+        # A rule that had nothing to look at left nothing unjudged.
+        "rules": len(
+            {run.rule for run in record.outcomes if run.status in _UNJUDGED and run.because != "nothing-to-check"}
+        ),
+        "things": sum(part.count for source in record.delivery.sources for part in source.skipped),
+    }
+    return tuple(
+        words(f"report.headline.gap-{name}-{'one' if number == 1 else 'many'}", count=words.count(number))
+        for name, number in numbers.items()
+        if number
+    )
+
+
+def _facts(words: Words, record: AuditRecord) -> tuple[tuple[str, str], ...]:
+    scale = f"1:{record.scale:g}" if record.scale else words("report.fact.no-scale")
+    facts = [
+        ("profile", f"{printable(record.profile_title)} ({printable(record.profile)})"),
+        ("class", words(f"report.fact.class-{record.product_class}")),
+        ("scale", scale.replace(".", ",") if words.language == "pt-BR" else scale),
+    ]
+    if record.started:
+        facts.append(("date", moment(words, record.started)))
+    facts.append(("version", f"foparq {record.versions.get('foparq', '')}".strip()))
+    if record.norms:
+        facts.append(("norms", "; ".join(printable(norm) for norm in record.norms)))
+    return tuple((words(f"report.fact.{name}"), value) for name, value in facts)
+
+
+def moment(words: Words, iso: str) -> str:
+    """Moment (ISO 8601, UTC) as people write it."""
+    date, _, clock = iso.partition("T")
+    year, month, day = date.split("-")
+    return words(
+        "report.date.long", day=day.lstrip("0"), month=words(f"report.date.month-{month}"), year=year, time=clock[:5]
+    )
+
+
+def element_views(words: Words, record: AuditRecord) -> tuple[ElementView, ...]:
+    """Rows of the table of quality elements; of loose files those that could be assessed."""
+    shown = (one for one in record.quality.elements if not record.loose or one.status is not ElementStatus.NOT_ASSESSED)
+    return tuple(_element_view(words, element) for element in shown)
+
+
+def open_elements(words: Words, record: AuditRecord) -> tuple[ElementView, ...]:
+    """Quality elements that were not decided."""
+    return tuple(_element_view(words, element) for element in record.quality.elements if element.status in OPEN)
+
+
+def _element_view(words: Words, element: Element) -> ElementView:
+    kind = words(f"report.element.{element.element}")
+    sign = {"<=": "≤", ">=": "≥"}.get(element.comparison, element.comparison)
+    limit = "" if element.limit is None else f"{sign} {words.quantity(element.limit, element.unit)}"
+    parameters = [
+        (parameter_name(words, name), words.quantity(value, unit)) for name, value, unit in element.parameters
+    ]
+    return ElementView(
+        id=printable(element.id),
+        element=words.find(f"evaluate.element.{element.id}.title") or kind,
+        measure=f"{element.measure_name} ({element.measure_id})",
+        scope=printable(element.scope),
+        value="–" if element.value is None else words.quantity(element.value, element.unit),
+        limit=limit.strip() or "–",
+        n=words.count(element.n),
+        status=element.status.value,
+        word=words("report.status.reported" if element.only_reported else f"report.status.{element.status.value}"),
+        why=tuple(reason_sentence(words, reason) for reason in element.why),
+        required=element.required,
+        parameters=(
+            (words("report.elements.kind"), kind),
+            *parameters,
+            (words("report.elements.method"), words(f"report.method.{element.method}")),
+        ),
+        details=tuple((printable(name), _share(words, found, out_of)) for name, found, out_of in element.details),
+    )
+
+
+def _share(words: Words, found: float, out_of: float) -> str:
+    if not out_of:
+        return words.count(found)
+    return words(
+        "report.elements.detail",
+        found=words.count(found),
+        total=words.count(out_of),
+        rate=words.quantity(found / out_of, "1"),
+    )
+
+
+def _state(words: Words, source: Source) -> str:
+    plain = source.status is SourceStatus.READ and source.role not in _COUNTED
+    return "" if plain else source_sentence(words, source)
+
+
+def input_views(words: Words, sources: Sequence[Source]) -> tuple[InputView, ...]:
+    """Rows of the table of files."""
+    return tuple(
+        InputView(
+            path=printable(source.path),
+            role=words(f"report.role.{source.role}"),
+            status=source.status.value,
+            word=words(f"report.source-status.{source.status.value}"),
+            sentence=_state(words, source),
+            bytes=words.count(source.bytes) if source.status is not SourceStatus.MISSING else "–",
+            sha256=source.sha256,
+        )
+        for source in sources
+    )
