@@ -4,7 +4,6 @@
 import ast
 import gettext
 import re
-import string
 import subprocess
 import sys
 import tomllib
@@ -12,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from tests.texts import check_texts, placeholders
 
 from foparq.check.catalogue import cards
 from foparq.check.registry import all_rules, in_order
@@ -150,19 +150,15 @@ def test_rule_is_documented(rule) -> None:  # noqa: ANN001
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)
 def test_rule_has_its_texts(rule) -> None:  # noqa: ANN001
-    for language in LANGUAGES:
-        words = Words(language)
-        for part in ("title", "finding", "mend"):
-            file = f"reports/templates/locale/{language.replace('-', '_')}/LC_MESSAGES/rules.po"
-            assert words.find(f"rules.{rule.code}.{part}"), f'add msgid "{rule.code}.{part}" to {file}'
-        allowed = {"size", "limit", "layer", "item", "handle", "other", "inserts", "source"}
-        unknown = placeholders(words.find(f"rules.{rule.code}.finding") or "") - allowed
-        assert not unknown, f"{rule.code}.finding names {unknown} in {language}: only {sorted(allowed)} are filled in"
-    manual = Words("pt-BR").find(f"rules.{rule.code}.manual")
-    file = "reports/templates/locale/pt_BR/LC_MESSAGES/rules.po"
-    assert manual, f'translate the docstring as msgid "{rule.code}.manual" in {file}'
-    for name, _ in rule.tolerances:
-        assert name in manual, f"{rule.code}.manual in {file} does not explain {name}"
+    file = f"rules/texts/{rule.code}.toml"
+    assert (ROOT / file).is_file(), f"write {file}: see CONTRIBUTING.md, step 5"
+    check_texts(rule, tomllib.loads((ROOT / file).read_text(encoding="utf-8")))
+
+
+def test_every_file_of_texts_and_cases_has_its_rule() -> None:
+    for folder in (ROOT / "rules" / "texts", ROOT / "tests" / "cases"):
+        without = {path.stem for path in folder.iterdir()} - set(all_rules())
+        assert not without, f"{identify(folder)}: no rule has the code {sorted(without)}"
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.code)
@@ -205,10 +201,6 @@ def catalogue(language: str, domain: str) -> dict[str, str]:
     return {key: text for key, text in found.items() if key and isinstance(key, str)}
 
 
-def placeholders(text: str) -> set[str]:
-    return {field for _, field, _, _ in string.Formatter().parse(text) if field is not None}
-
-
 @pytest.mark.parametrize("path", sorted(LOCALE.rglob("*.po")), ids=identify)
 def test_no_message_is_defined_twice(path: Path) -> None:
     ids = re.findall(r'^msgid "([^"]+)"', path.read_text(encoding="utf-8"), flags=re.MULTILINE)
@@ -218,7 +210,7 @@ def test_no_message_is_defined_twice(path: Path) -> None:
 @pytest.mark.parametrize("domain", DOMAINS)
 def test_catalogues_speak_of_the_same(domain: str) -> None:
     english, portuguese = catalogue("en", domain), catalogue("pt-BR", domain)
-    only = {key for key in set(english) ^ set(portuguese) if not key.endswith(".manual")}
+    only = set(english) ^ set(portuguese)
     assert not only, f"{domain}.po: in one language only: {sorted(only)}"
     for key in set(english) & set(portuguese):
         assert placeholders(english[key]) == placeholders(portuguese[key]), (
@@ -229,7 +221,7 @@ def test_catalogues_speak_of_the_same(domain: str) -> None:
 
 def literal_messages() -> Iterator[tuple[str, str]]:
     """Every message id that stands in the code as a plain string."""
-    domains = "|".join(DOMAINS)
+    domains = "|".join((*DOMAINS, "rules"))
     for path in FILES:
         for node in ast.walk(parse(path)):
             if (

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Sentences, numbers and dates in the language of the user.
 
-Texts live in gettext catalogues under ``reports/templates/locale``, one file a domain and language. A message is named
-``"domain.id"``: ``words("rules.TOP021.finding", size="4,0 mm")``. Code never holds a sentence.
+Texts live in gettext catalogues under ``reports/templates/locale``, one file a domain and language; those of rules, the
+domain ``rules``, in one file a rule under ``rules/texts``. A message is named ``"domain.id"``:
+``words("rules.TOP021.finding", size="4,0 mm")``. Code never holds a sentence.
 """
 
 import gettext
@@ -11,10 +12,11 @@ from collections.abc import Mapping
 from functools import cache
 
 from foparq.errors import FoparqError
+from foparq.report.rule_texts import rule_text
 from foparq.resources import shipped
 
 LANGUAGES = ("pt-BR", "en")
-DOMAINS = ("cli", "errors", "evaluate", "report", "rules")
+DOMAINS = ("cli", "errors", "evaluate", "report")  #: of gettext
 
 #: how a quantity is written for people, by SI unit: below which value, unit, factor from SI, decimals
 _LADDERS = {
@@ -63,6 +65,8 @@ class Words:
     def find(self, message: str) -> str | None:
         """Text of a message id as it stands in the catalogue, or ``None``."""
         domain, _, key = message.partition(".")
+        if domain == "rules":
+            return rule_text(key, self.language)
         text = self._catalogue(domain).gettext(key)
         return None if text == key else text
 
