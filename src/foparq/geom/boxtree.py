@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from foparq.columns import Index, Reals
 
 _FANOUT = 4
+#: points looked at to tell the bulk of a drawing from what lies far outside
+_SAMPLE = 1000
 #: pairs of boxes tested in one step: 2**21 pairs take about 100 MB
 _CHUNK = 2**21
 
@@ -28,7 +30,7 @@ class BoxTree:
     """
 
     def __init__(self, low: Reals, high: Reals) -> None:
-        self._order = np.argsort(_z_order((low + high) / 2), kind="stable")
+        self._order = np.argsort(_z_order(low / 2 + high / 2), kind="stable")
         self._levels: list[tuple[Reals, Reals, Reals, Reals]] = []
         columns = [low[self._order, 0], low[self._order, 1], high[self._order, 0], high[self._order, 1]]
         while True:
@@ -98,7 +100,7 @@ class BoxTree:
         """
         ahead = np.arange(len(low))
         # Neighbours are asked together: the memory they touch is the same.
-        ahead = ahead[np.argsort(_z_order((low + high) / 2), kind="stable")] if len(ahead) else ahead
+        ahead = ahead[np.argsort(_z_order(low / 2 + high / 2), kind="stable")] if len(ahead) else ahead
         stack = [ahead[k : k + _CHUNK // 8] for k in range(0, len(ahead), _CHUNK // 8)][::-1]
         brood = np.arange(_FANOUT)
         while stack:
@@ -124,9 +126,14 @@ def _z_order(points: Reals) -> NDArray[np.uint64]:
     """Place of points (n, 2) along a Z-order curve of 2**31 cells a side."""
     if not len(points):
         return np.zeros(0, dtype=np.uint64)
-    low = points.min(axis=0)
-    side = float((points.max(axis=0) - low).max()) or 1.0
-    cells = ((points - low) * ((2**31 - 1) / side)).astype(np.uint64)
+    # What lies far outside of the bulk shares its border cells, and takes no fineness from it.
+    few = np.sort(points[:: max(1, len(points) // _SAMPLE)], axis=0)
+    tenth = len(few) // 10
+    low, high = few[tenth], few[-1 - tenth]
+    low, high = low - 4 * (high - low), high + 4 * (high - low)
+    low, high = np.maximum(low, points.min(axis=0)), np.minimum(high, points.max(axis=0))
+    side = float((high - low).max()) or 1.0
+    cells = ((np.clip(points, low, high) - low) * ((2**31 - 1) / side)).astype(np.uint64)
     return _spread(cells[:, 0]) | (_spread(cells[:, 1]) << np.uint64(1))
 
 

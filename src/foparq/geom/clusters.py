@@ -5,6 +5,7 @@ import numpy as np
 import shapely
 
 from foparq.columns import Geometries, Index
+from foparq.geom.parts import is_finite
 from foparq.geom.stretches import components, in_order_of_first
 
 #: geometries asked in one step
@@ -23,7 +24,8 @@ def clusters(geometry: Geometries, *, gap: float) -> Index:
     Returns
     -------
     (n,) int
-        Label of the component, numbered in order of first rows. A missing or empty geometry is alone.
+        Label of the component, numbered in order of first rows. A geometry that is missing, empty or not finite is
+        alone.
 
     Notes
     -----
@@ -31,6 +33,9 @@ def clusters(geometry: Geometries, *, gap: float) -> Index:
     """
     if not len(geometry):
         return np.empty(0, dtype=np.intp)
+    # An index over boxes that are no numbers finds nothing.
+    geometry = geometry.copy()
+    geometry[~is_finite(geometry)] = None
     label = _same_cell(geometry, gap)
     tree = shapely.STRtree(geometry)
     edges: list[Index] = []

@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 
 from foparq.columns import Geometries, Index, Reals
-from foparq.geom.polylines import ROUNDING
+from foparq.geom.rounding import EARTH, origin_of, slack_of
 
 #: corners sharper than this many times the growth are cut, so that growing stays near
 _MITRE = 5.0
@@ -54,7 +54,9 @@ def area_overlaps(areas: Geometries, *, least: float) -> AreaOverlaps:
     i, j = i[i < j], j[i < j]
     common = shapely.intersection(local[i], local[j])
     area = shapely.area(common)
-    over = np.flatnonzero(area > least + _slack(areas) * shapely.length(common) + 1e-9 * least)
+    over = np.flatnonzero(
+        area > least + slack_of(shapely.get_coordinates(areas)) * shapely.length(common) + 1e-9 * least
+    )
     # Whichever comes first in the file, the smaller of two areas is the one at fault.
     size = np.round(shapely.area(local), 9)
     larger = (size[j] > size[i])[over]
@@ -85,13 +87,18 @@ def coverage_gaps(areas: Geometries, *, coincide: float, most: float) -> Gaps:
     Notes
     -----
     O(v log v) in the vertices. A gap is bounded by at least two areas, counted within ``coincide``: a hole of one area
-    is none. Two parts of one feature are two areas here.
+    is none. Two parts of one feature are two areas here. Areas that go beyond the Earth are passed over: joined with
+    them, the others would lose their digits.
     """
+    near = np.flatnonzero(np.all(np.abs(shapely.bounds(areas).reshape(-1, 4)) <= EARTH, axis=1))
+    if len(near) < len(areas):
+        found = coverage_gaps(areas[near], coincide=coincide, most=most)
+        return found._replace(first=near[found.first], second=near[found.second])
     if not len(areas):
         nothing = np.empty(0, dtype=np.intp)
         return Gaps(nothing, nothing, np.empty(0, dtype=object), np.empty(0))
     local, origin = _near_zero(areas)
-    half = coincide / 2 + _slack(areas)
+    half = coincide / 2 + slack_of(shapely.get_coordinates(areas))
     covered = shapely.union_all(_grown(local, half))
     x0, y0, x1, y1 = shapely.bounds(covered)
     frame = shapely.box(x0 - 1, y0 - 1, x1 + 1, y1 + 1)
@@ -100,7 +107,9 @@ def coverage_gaps(areas: Geometries, *, coincide: float, most: float) -> Gaps:
     enclosed = open_parts[~shapely.intersects(open_parts, shapely.get_exterior_ring(frame))]
     enclosed = _polygons_only(_grown(enclosed, half))
     area = shapely.area(enclosed)
-    small = (area > 0) & (area <= most + _slack(areas) * shapely.length(enclosed) + 1e-9 * most)
+    small = (area > 0) & (
+        area <= most + slack_of(shapely.get_coordinates(areas)) * shapely.length(enclosed) + 1e-9 * most
+    )
     enclosed, area = enclosed[small], area[small]
 
     gap, side = shapely.STRtree(local).query(enclosed, predicate="dwithin", distance=2 * half)
@@ -119,16 +128,9 @@ def _grown(shapes: Geometries, by: float) -> Geometries:
     return grown
 
 
-def _slack(areas: Geometries) -> float:
-    """Metres by which a boundary may be off because coordinates are rounded."""
-    largest = float(np.abs(shapely.get_coordinates(areas)).max(initial=0.0))
-    return ROUNDING + 4 * float(np.spacing(largest))
-
-
 def _near_zero(areas: Geometries) -> tuple[Geometries, Reals]:
     """The areas moved to near zero, where computing loses no digits, and by how much."""
-    coordinates = shapely.get_coordinates(areas)
-    origin = np.floor(coordinates.min(axis=0)) if len(coordinates) else np.zeros(2)
+    origin = origin_of(shapely.get_coordinates(areas))
     return _moved(areas, -origin), origin
 
 

@@ -8,12 +8,14 @@ from scipy.spatial import cKDTree
 
 from foparq.columns import Flags, Index, Reals
 from foparq.geom.polylines import Polylines
-from foparq.geom.ragged import ragged
+from foparq.geom.ragged import last_not_above, ragged
 from foparq.geom.segments import at_share, nearest_share
 from foparq.geom.stretches import components
 
 #: pairs of lines, or places of them, compared in one step
 _CHUNK = 2**20
+#: cells of rounding from the origin, within what an integer holds
+_FAR = 2.0**62
 _WAITING, _FOUND, _DONE = 0, 1, 2
 #: odd numbers that mix bits well (splitmix64, MurmurHash3)
 _FACTORS = (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB)
@@ -69,10 +71,11 @@ def _groups(lines: Polylines, within: float) -> Index:
 def _equal_but_for_rounding(lines: Polylines) -> Index:
     """First line (n,) that has the same vertices in the same order; often the line itself."""
     grid = 4 * lines.slack
-    rounded = np.column_stack([np.round(lines.plane / grid), np.round(lines.depth / grid)]).astype(np.int64)
+    rounded = np.round(np.column_stack([lines.plane, lines.depth]) / grid)
+    cells = np.clip(rounded, -_FAR, _FAR).astype(np.int64)
     place = np.arange(len(rounded)) - np.repeat(lines.heads, np.diff(lines.offsets))
     number = np.zeros(len(rounded), dtype=np.uint64)
-    for column, factor in zip(rounded.T, _FACTORS, strict=True):
+    for column, factor in zip(cells.T, _FACTORS, strict=True):
         number = (number ^ column.astype(np.uint64)) * np.uint64(factor)
         number ^= number >> np.uint64(29)
     number *= place.astype(np.uint64) * np.uint64(2) + np.uint64(1)
@@ -233,10 +236,7 @@ def _near_place(lines: Polylines, vertex: Index, line: Index, place: Reals, with
     length = lines.length[line]
     outside = (place < -lines.slack) | (place > length + lines.slack)
     place = np.clip(np.where(outside, np.mod(place, np.maximum(length, lines.slack)), place), 0.0, length)
-    base = np.concatenate([[0.0], np.cumsum(lines.length)])
-    total = base[lines.line_of_vertex] + lines.along
-    at = np.searchsorted(total, base[line] + place, side="right") - 1
-    at = np.clip(at, lines.heads[line], lines.tails[line] - 1)
+    at = last_not_above(lines.along, lines.heads[line], lines.tails[line], place)
     part_end = at + 1
     step = lines.along[part_end] - lines.along[at]
     share = np.clip((place - lines.along[at]) / np.where(step > 0, step, 1.0), 0.0, 1.0)

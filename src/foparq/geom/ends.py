@@ -188,8 +188,10 @@ def _nearest(asked: _Asked, back: Index, within: float, radius: float) -> tuple[
         flat = np.hypot(*(at_share(share, near.start, near.end) - points[at]).T)
         drop = np.abs(at_share(share, near.z0, near.z1) - depth[at])
         connected[at[(flat <= within) & (drop <= within)]] = True
-        far = asked.others(at, row)
-        _keep_least(gap, line, at[far], np.hypot(flat, drop)[far], lines.line[row[far]], lines.slack)
+        apart = np.hypot(flat, drop)
+        # What is farther is never told; what is no number would hide the others.
+        far = np.flatnonzero((apart <= radius + 2 * lines.slack) & asked.others(at, row))
+        _keep_least(gap, line, at[far], apart[far], lines.line[row[far]], lines.slack)
     return gap, line, connected
 
 

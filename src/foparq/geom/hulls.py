@@ -14,20 +14,24 @@ def hulls_of(geometry: Geometries, label: Index) -> Geometries:
 
     Parameters
     ----------
-    geometry : (n,) shapely geometries, none empty
+    geometry : (n,) shapely geometries or None
     label : (n,) int
         0, 1, 2 ... without gaps.
 
     Returns
     -------
     (k,) shapely geometries
-        Points and lines where a group has no width.
+        Points and lines where a group has no width; empty where it has no vertex. Vertices that are not finite are
+        passed over.
     """
     if not len(geometry):
         return geometry
     coordinates, row = shapely.get_coordinates(geometry, return_index=True)
+    finite = np.isfinite(coordinates).all(axis=1)
+    coordinates, row = coordinates[finite], row[finite]
     order = np.argsort(label[row], kind="stable")
-    crowds = shapely.multipoints(shapely.points(coordinates[order]), indices=label[row][order])
+    crowds = np.full(int(label.max()) + 1, shapely.MultiPoint(), dtype=object)
+    shapely.multipoints(shapely.points(coordinates[order]), indices=label[row][order], out=crowds)
     hulls: Geometries = shapely.convex_hull(crowds)
     return hulls
 
@@ -50,7 +54,7 @@ def outermost(hulls: Geometries, group: Index) -> Flags:
     Returns
     -------
     (n,) bool
-        Of equal hulls of one group, one is true.
+        Of equal hulls of one group, one is true; of empty ones, none.
 
     Notes
     -----
@@ -60,6 +64,7 @@ def outermost(hulls: Geometries, group: Index) -> Flags:
     if not len(hulls):
         return kept
     order = np.lexsort([-shapely.length(hulls), -shapely.area(hulls)])
+    order = order[~shapely.is_empty(hulls[order])]
     _, first = np.unique(_keys(hulls, group)[order], return_index=True)
     order = order[np.sort(first)]
     # Containment is transitive and what contains is larger: it is enough to ask the large ones that were kept. Steps

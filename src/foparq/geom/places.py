@@ -11,9 +11,9 @@ import numpy as np
 import shapely
 
 from foparq.columns import Flags, Geometries, Index, Reals
+from foparq.geom.parts import single_parts
 from foparq.geom.ragged import last_not_above, running_sums
 
-_SINGLE = shapely.GeometryType.POLYGON  #: greatest type number of a geometry without parts
 #: share of a length or an area, and units in the last place of a coordinate, below which a difference is rounding
 _SHARE, _UNITS = 1e-9, 64
 
@@ -54,7 +54,7 @@ def place_on(geometry: Geometries) -> Reals:
     -----
     O(vertices log vertices). Vertices that are not finite are passed over.
     """
-    parts, owner = _single_parts(geometry)
+    parts, owner = single_parts(geometry)
     dimension = shapely.get_dimensions(parts)
     found = _Candidates(np.full((len(parts), 3), np.nan), np.zeros(len(parts)), np.zeros(len(parts)))
     with np.errstate(over="ignore", invalid="ignore"):  # a length may be beyond all numbers
@@ -71,16 +71,6 @@ def place_on(geometry: Geometries) -> Reals:
     places = np.full((len(geometry), 3), np.nan)
     places[owner[chosen]] = found.place[chosen]
     return places
-
-
-def _single_parts(geometry: Geometries) -> tuple[Geometries, Index]:
-    """Points, lines and polygons that geometries are made of, none empty, and the row of each."""
-    parts, owner = geometry, np.arange(len(geometry))
-    while np.any(shapely.get_type_id(parts) > _SINGLE):
-        parts, of = shapely.get_parts(parts, return_index=True)
-        owner = owner[of]
-    there = np.flatnonzero(~(shapely.is_missing(parts) | shapely.is_empty(parts)))
-    return parts[there], owner[there]
 
 
 def _greatest(label: Index, of: _Candidates) -> Index:

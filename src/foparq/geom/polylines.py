@@ -15,11 +15,10 @@ import shapely
 
 from foparq.columns import Flags, Geometries, Index, Reals
 from foparq.geom.boxtree import BoxTree
+from foparq.geom.ragged import running_sums
+from foparq.geom.rounding import origin_of, slack_of
 
 T = TypeVar("T")
-
-#: metres; half a unit in the last place of seven digits before the point, in two coordinates of two points
-ROUNDING = 5e-9
 
 
 class Segments(NamedTuple):
@@ -77,9 +76,8 @@ class Polylines:
 
     @cached_property
     def origin(self) -> Reals:
-        """(2,) whole metres near the lower corner: computing near zero loses no digits at 7.4e6."""
-        corner: Reals = np.floor(self.coordinates[:, :2].min(axis=0)) if len(self.coordinates) else np.zeros(2)
-        return corner
+        """(2,) whole metres amidst the linework: computing near zero loses no digits at 7.4e6."""
+        return origin_of(self.coordinates)
 
     @cached_property
     def plane(self) -> Reals:
@@ -91,13 +89,13 @@ class Polylines:
         """(m,) depth; zero where the drawing has none."""
         if self.coordinates.shape[1] == 2:  # noqa: PLR2004 - two coordinates
             return np.zeros(len(self.coordinates))
-        return np.nan_to_num(self.coordinates[:, 2], nan=0.0)
+        depth = self.coordinates[:, 2]
+        return np.where(np.isfinite(depth), depth, 0.0)
 
     @cached_property
     def slack(self) -> float:
         """Metres by which a distance may be off because coordinates are rounded; added to every tolerance."""
-        largest = float(np.abs(self.coordinates[:, :2]).max()) if len(self.coordinates) else 0.0
-        return ROUNDING + 4 * float(np.spacing(largest))
+        return slack_of(self.coordinates)
 
     @cached_property
     def first(self) -> Index:
@@ -136,11 +134,9 @@ class Polylines:
     @cached_property
     def along(self) -> Reals:
         """(m,) planar length from the first vertex of the line to each vertex."""
-        total = np.zeros(len(self.coordinates))
-        total[self.first + 1] = self.step
-        total = np.cumsum(total)
-        run: Reals = total - np.repeat(total[self.heads], np.diff(self.offsets))
-        return run
+        step = np.zeros(len(self.coordinates))
+        step[self.first + 1] = self.step
+        return running_sums(step, self.offsets)
 
     @cached_property
     def heads(self) -> Index:
@@ -183,10 +179,14 @@ class Polylines:
         Boxes around segments are thin in this frame: a hatch drawn askew costs no more than an upright one.
         """
         step = self.plane[self.first + 1] - self.plane[self.first]
-        # The fourth power folds the four directions of a right angle into one; weighted by length.
-        folded = (step[:, 0] + 1j * step[:, 1]) ** 4
-        size = np.maximum(self.step, 1e-30)
-        angle = float(np.angle(np.sum(folded / size**3))) / 4 if len(step) else 0.0
+        long = np.flatnonzero((self.step > 0) & (self.step < np.inf))
+        if not len(long):
+            return np.eye(2)
+        # The fourth power folds the four directions of a right angle into one; weighted by length, up to a bound: one
+        # line from here to the Moon says nothing of the others.
+        size = self.step[long]
+        unit = (step[long, 0] + 1j * step[long, 1]) / size
+        angle = float(np.angle(np.sum(unit**4 * np.minimum(size, 100 * np.median(size))))) / 4
         c, s = np.cos(angle), np.sin(angle)
         return np.array([[c, -s], [s, c]])
 

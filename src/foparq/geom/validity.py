@@ -8,11 +8,12 @@ import numpy as np
 import shapely
 
 from foparq.columns import Flags, Geometries, Index
+from foparq.geom.parts import is_finite, rings_of, single_parts
 
 _LINE, _RING = (shapely.GeometryType.LINESTRING, shapely.GeometryType.LINEARRING)
 #: vertices below which a line or ring has no shape
 _LEAST_LINE, _LEAST_RING = 2, 4
-_PLACE = re.compile(r"\[(\S+) (\S+)\]")
+_PLACE = re.compile(r"\[(\S+) (\S+)(?: \S+)?\]")
 
 
 class Invalid(NamedTuple):
@@ -33,7 +34,8 @@ def invalid_geometries(geometry: Geometries) -> Invalid:
     -------
     Invalid
         A polygon counts if GEOS calls it invalid, except where the only fault is a ring that crosses or touches
-        itself: that is a matter of the ring as a line. The place is the one GEOS names; it names one.
+        itself: that is a matter of the ring as a line. Parts and holes that are empty are no fault. The place is the
+        one GEOS names; it names one.
 
     Notes
     -----
@@ -43,8 +45,9 @@ def invalid_geometries(geometry: Geometries) -> Invalid:
     place = np.full(len(geometry), shapely.Point(), dtype=object)
     doubtful = np.flatnonzero(~broken & ~shapely.is_valid(geometry) & (shapely.get_dimensions(geometry) == 2))  # noqa: PLR2004
     reason = shapely.is_valid_reason(geometry[doubtful])
-    for row, text in zip(doubtful, reason, strict=True):
-        if "elf-intersection" in text and not _rings_are_simple(geometry[row]):
+    simple = _rings_are_simple(geometry[doubtful])
+    for row, text, rings_are_simple in zip(doubtful, reason, simple, strict=True):
+        if "elf-intersection" in text and not rings_are_simple:
             continue
         broken[row] = True
         named = _PLACE.search(text)
@@ -55,9 +58,7 @@ def invalid_geometries(geometry: Geometries) -> Invalid:
 
 
 def _not_finite(geometry: Geometries) -> Flags:
-    coordinates, row = shapely.get_coordinates(geometry, return_index=True)
-    bad = np.zeros(len(geometry), dtype=bool)
-    bad[row[~np.isfinite(coordinates).all(axis=1)]] = True
+    bad = ~is_finite(geometry)
     depth, row = shapely.get_coordinates(geometry, include_z=True, return_index=True)
     # A missing depth reads as NaN in a flat geometry; an infinite one is never meant.
     bad[row[np.isinf(depth[:, 2])]] = True
@@ -65,16 +66,20 @@ def _not_finite(geometry: Geometries) -> Flags:
 
 
 def _too_short(geometry: Geometries) -> Flags:
-    parts, row = shapely.get_parts(geometry, return_index=True)
+    parts, row = single_parts(geometry)
     bad = np.zeros(len(geometry), dtype=bool)
     lines = np.isin(shapely.get_type_id(parts), (_LINE, _RING))
     bad[row[lines & (shapely.get_num_coordinates(parts) < _LEAST_LINE)]] = True
-    rings, owner = shapely.get_rings(parts, return_index=True)
+    rings, owner = rings_of(parts)
     closed = shapely.is_closed(rings)
     bad[row[owner[(shapely.get_num_coordinates(rings) < _LEAST_RING) | ~closed]]] = True
     return bad
 
 
-def _rings_are_simple(geometry: shapely.Geometry) -> bool:
-    rings = shapely.get_rings(shapely.get_parts(geometry))
-    return bool(shapely.is_simple(rings).all())
+def _rings_are_simple(geometry: Geometries) -> Flags:
+    """True (n,) where no ring crosses or touches itself."""
+    parts, row = single_parts(geometry)
+    rings, owner = rings_of(parts)
+    simple = np.ones(len(geometry), dtype=bool)
+    simple[row[owner[~shapely.is_simple(rings)]]] = False
+    return simple
