@@ -3,8 +3,12 @@
 
 import signal
 import sys
+import warnings
 
-from foparq.cli.main import run
+# What libraries warn of is no business of who runs the command. Who asks with ``-W`` is told of foparq's own code only.
+warnings.filterwarnings("ignore", module=r"(?!foparq\b)" if sys.warnoptions else "")
+
+from foparq.cli.main import run  # noqa: E402 - libraries warn while they are loaded, too
 
 
 def main() -> None:

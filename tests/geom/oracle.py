@@ -2,7 +2,7 @@
 """Definitions of the rules worked out one end and one pair at a time, with shapely: slow, plain, independent."""
 
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -52,7 +52,7 @@ def classify(drawing: Drawing, line: int, *, last: bool, coincide: float, reach:
     near = drawing.flat[around]
     place = shapely.Point(way[0, :2])
     gap = shapely.distance(near, place)
-    drop = np.abs(_depth(drawing, around, shapely.line_locate_point(near, place, normalized=True)) - way[0, 2])
+    drop = np.abs(_depth(drawing, around, _share(near, place)) - way[0, 2])
     back = drawing.others(line, last=last, reach=coincide)
     if _met(drawing, back, place, way[0, 2], coincide):
         return End(line, last, "connected", 0.0, frozenset())
@@ -70,8 +70,13 @@ def classify(drawing: Drawing, line: int, *, last: bool, coincide: float, reach:
 
 def _met(drawing: Drawing, rows: NDArray[np.intp], place: shapely.Point, depth: float, coincide: float) -> bool:
     near = drawing.flat[rows]
-    drop = np.abs(_depth(drawing, rows, shapely.line_locate_point(near, place, normalized=True)) - depth)
+    drop = np.abs(_depth(drawing, rows, _share(near, place)) - depth)
     return bool(np.any((shapely.distance(near, place) <= coincide + EPS) & (drop <= coincide + EPS)))
+
+
+def _share(lines: Any, place: shapely.Point) -> Any:
+    with np.errstate(invalid="ignore"):  # a segment without length has no share; some versions of GEOS warn of it
+        return shapely.line_locate_point(lines, place, normalized=True)
 
 
 def _depth(drawing: Drawing, rows: NDArray[np.intp], share: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -107,7 +112,7 @@ def _meeting(
     for candidates in ([crossing] if crossing.geom_type == "Point" else [], ends):
         places = []
         for place in candidates:
-            on_a, on_b = (shapely.line_locate_point(line, place, normalized=True) for line in (a, b))
+            on_a, on_b = (_share(line, place) for line in (a, b))
             apart = shapely.distance(
                 shapely.line_interpolate_point(a, on_a, normalized=True),
                 shapely.line_interpolate_point(b, on_b, normalized=True),

@@ -163,7 +163,7 @@ def _start(function: Callable[..., Any], args: tuple[Any, ...], seconds: float, 
     job = pickle.dumps((sys.path, os.getpid()), protocol=5) + pickle.dumps(
         (function, args, seconds, memory), protocol=5
     )
-    command = [sys.executable, "-c", "from foparq.read.guard.child import main; main()"]
+    command = [sys.executable, "-W", "ignore", "-c", "from foparq.read.guard.child import main; main()"]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:  # noqa: S603 - own interpreter
         try:
             answer, words = process.communicate(job, timeout=seconds)
