@@ -4,10 +4,10 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-import scipy
 import shapely
 
 from foparq import __version__
@@ -169,5 +169,5 @@ def versions() -> dict[str, str]:
         **reader_versions(),
         "shapely": shapely.__version__,
         "numpy": np.__version__,
-        "scipy": scipy.__version__,
+        "scipy": version("scipy"),
     }

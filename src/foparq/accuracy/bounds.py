@@ -5,7 +5,6 @@ import math
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import chdtri
 
 from foparq.accuracy.moments import moments
 
@@ -56,6 +55,8 @@ def rmse_upper(rmse: float, n: int, *, confidence: float) -> float:
     ``sum(d^2) / sigma^2`` is chi-square distributed with n degrees of freedom. A bias makes the bound wider than it
     needs to be.
     """
+    from scipy.special import chdtri  # noqa: PLC0415 - slow to load; a check of loose files needs none
+
     return rmse * math.sqrt(n / float(chdtri(n, confidence)))
 
 

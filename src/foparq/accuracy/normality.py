@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import log_ndtr
 
 from foparq.accuracy.moments import moments
 
@@ -53,6 +52,8 @@ def anderson_darling(differences: ArrayLike) -> AndersonDarling:
     n = found.n
     z = np.sort((values - found.mean) / found.sd)
     odd = 2.0 * np.arange(1, n + 1) - 1.0
+    from scipy.special import log_ndtr  # noqa: PLC0415 - slow to load; a check of loose files needs none
+
     # Logarithms of both tails keep their digits where 1 - F(z) would be zero.
     a2 = -n - math.fsum(odd * (log_ndtr(z) + log_ndtr(-z[::-1]))) / n
     star = a2 * (1.0 + 0.75 / n + 2.25 / n**2)

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import bdtr, stdtr, stdtrit
 
 from foparq.accuracy.moments import moments
 
@@ -49,6 +48,8 @@ def student_test(differences: ArrayLike, *, confidence: float) -> StudentTest:
     found = moments(differences)
     if found.n < 2:  # noqa: PLR2004 - a standard deviation needs two
         raise ValueError("a Student test needs two differences")
+    from scipy.special import stdtr, stdtrit  # noqa: PLC0415 - slow to load; a check of loose files needs none
+
     freedom = found.n - 1
     critical = float(stdtrit(freedom, (1.0 + confidence) / 2.0))
     if found.sd > 0.0:
@@ -84,4 +85,6 @@ def sign_test(differences: ArrayLike) -> float:
     """
     values = np.asarray(differences, dtype=np.float64).ravel()
     above, below = int(np.count_nonzero(values > 0)), int(np.count_nonzero(values < 0))
+    from scipy.special import bdtr  # noqa: PLC0415 - slow to load; a check of loose files needs none
+
     return min(1.0, 2.0 * float(bdtr(min(above, below), above + below, 0.5)))

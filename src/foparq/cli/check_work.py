@@ -14,7 +14,6 @@ from foparq.errors import UsageError
 from foparq.profile.adjust import choose, with_settings
 from foparq.profile.load import load_profile
 from foparq.profile.schema import Profile
-from foparq.report.files import writable, write_reports
 from foparq.report.words import Words
 from foparq.units import parse_length_unit, parse_scale
 
@@ -34,6 +33,8 @@ def check_work(
     if unit is not None:
         parse_length_unit(unit)
     if out is not None:
+        from foparq.report.files import writable, write_reports  # noqa: PLC0415 - only where reports are written
+
         writable(out)
     with progress_on_stderr(say) as progress:
         done = check_files(

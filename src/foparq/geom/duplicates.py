@@ -4,7 +4,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from foparq.columns import Flags, Index, Reals
 from foparq.geom.polylines import Polylines
@@ -106,6 +105,8 @@ def _candidates(lines: Polylines, within: float) -> Index:
     _, first, inverse = np.unique(cell, axis=0, return_index=True, return_inverse=True)
     centre = cell[first]
     # Two boxes within one unit of each other lie in the same or in touching cells.
+    from scipy.spatial import cKDTree  # noqa: PLC0415 - slow to load
+
     touching = cKDTree(centre).query_pairs(1.5, p=np.inf, output_type="ndarray")
     joined = components(len(first), touching[:, 0], touching[:, 1])[inverse]
     label[drawn] = n + joined

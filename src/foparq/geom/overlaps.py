@@ -4,8 +4,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import dijkstra
 
 from foparq.columns import Flags, Index, Reals
 from foparq.geom.pairs import meetings
@@ -84,6 +82,9 @@ def _from_the_longest(lines: Polylines, exempt: Flags, one: Index, two: Index) -
     """
     if not len(one):
         return one, two
+    from scipy.sparse import coo_array  # noqa: PLC0415 - slow to load, and few drawings need it
+    from scipy.sparse.csgraph import dijkstra  # noqa: PLC0415
+
     line, index = np.unique(np.concatenate([one, two]), return_inverse=True)
     i, j = index[: len(one)], index[len(one) :]
     label = components(len(line), i, j)

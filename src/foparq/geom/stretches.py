@@ -4,8 +4,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from foparq.columns import Index, Reals
 from foparq.geom.boxtree import BoxTree
@@ -23,6 +21,9 @@ class Stretches(NamedTuple):
 
 def components(count: int, i: Index, j: Index) -> Index:
     """Labels (count,) of connected components, numbered in order of their first row."""
+    from scipy.sparse import coo_array  # noqa: PLC0415 - slow to load, and not every drawing needs it
+    from scipy.sparse.csgraph import connected_components  # noqa: PLC0415
+
     graph = coo_array((np.ones(len(i), dtype=np.int8), (i, j)), shape=(count, count))
     _, label = connected_components(graph, directed=False)
     return in_order_of_first(label)
