@@ -7,6 +7,9 @@ from pathlib import Path
 import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[1]
+SHELF = Path(os.environ.get("FOPARQ_SHARED") or REPOSITORY.parent / "shared")
+#: whether somebody relies on the tests that read the shelf
+EXPECTED = bool(os.environ.get("FOPARQ_SHARED") or os.environ.get("CI") == "true") and str(SHELF) != "none"
 
 
 def pytest_report_header() -> list[str]:
@@ -40,7 +43,35 @@ def repository() -> Path:
 @pytest.fixture(scope="session")
 def shared() -> Path:
     """The shelf of real files nobody here wrote; ``FOPARQ_SHARED`` names it, else it lies beside the checkout."""
-    folder = Path(os.environ.get("FOPARQ_SHARED", REPOSITORY.parent / "shared"))
-    if not (folder / "data").is_dir():
-        pytest.skip(f"the shared shelf is not at {folder}: set FOPARQ_SHARED")
-    return folder
+    if not has_shelf():
+        pytest.skip(f"the shared shelf is not at {SHELF}: set FOPARQ_SHARED")
+    return SHELF
+
+
+def has_shelf() -> bool:
+    return (SHELF / "data").is_dir()
+
+
+def not_run(session: pytest.Session) -> int:
+    """Number of tests that were to run and had no shelf to read."""
+    return 0 if has_shelf() else sum(item.get_closest_marker("shared") is not None for item in session.items)
+
+
+def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
+    """A run that is relied on is not green without the shelf."""
+    if EXPECTED and exitstatus == pytest.ExitCode.OK and not_run(session) and not session.config.option.collectonly:
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Say loudly what was not tested."""
+    session = terminalreporter._session
+    missed = not_run(session) if session is not None and hasattr(session, "items") else 0
+    if missed:
+        terminalreporter.section("shared shelf", red=True, bold=True)
+        terminalreporter.line(
+            f"{missed} tests of the shared shelf were NOT run: no shelf at {SHELF}. FOPARQ_SHARED names its folder; "
+            "FOPARQ_SHARED=none says that it is meant.",
+            red=True,
+        )
