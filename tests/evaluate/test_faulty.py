@@ -7,7 +7,7 @@ from tests.evaluate.deliveries import drawing, drawn, judge, messages, not_run, 
 
 from foparq.evaluate.quality import ElementStatus, Verdict
 from foparq.findings.outcome import Status
-from foparq.model.drawing import Bomb, Skipped
+from foparq.model.drawing import Bomb, Skipped, SkippedReason
 from foparq.units import Quantity
 
 PASS, FAIL, UNDECIDED = ElementStatus.PASS, ElementStatus.FAIL, ElementStatus.UNDECIDED
@@ -166,7 +166,7 @@ def test_faults_on_one_drawing_reject_only_if_the_unchecked_one_cannot_outweigh_
 UNSEEN = {
     "unseen.block": drawn(drawing(bombs=(Bomb(block="B", layer="0", handle="2F", entities=-1),))),
     "unseen.skipped": drawn(
-        drawing(skipped=(Skipped(reason="external-reference", kind="INSERT", layer="0", count=1),))
+        drawing(skipped=(Skipped(reason=SkippedReason.EXTERNAL_REFERENCE, kind="INSERT", layer="0", count=1),))
     ),
     "unseen.file": drawn(drawing(), lost=["b.dxf"]),
 }
@@ -182,10 +182,10 @@ def test_what_nobody_saw_turns_a_pass_but_not_a_failure(message: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("reason", "kind"), [("paper-space", "LINE"), ("image", "IMAGE"), ("view", "view"), ("not-asked", "POINT")]
+    ("reason", "kind"), [("paper-space", "LINE"), ("image", "IMAGE"), ("unlisted-view", "view"), ("not-asked", "POINT")]
 )
 def test_what_is_no_linework_of_the_delivery_hides_nothing(reason: str, kind: str) -> None:
-    part = drawing(skipped=(Skipped(reason=reason, kind=kind, layer="0", count=3),))
+    part = drawing(skipped=(Skipped(reason=SkippedReason(reason), kind=kind, layer="0", count=3),))
     assert one(Q3, delivery=drawn(part), outcomes=clean()).status is PASS
 
 

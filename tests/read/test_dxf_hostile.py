@@ -13,7 +13,6 @@ from tests.read.drawn import new, read, read_back, skipped
 
 from foparq.errors import InputError, QuantityError, UnreadableError, UnsafeError
 from foparq.profile.schema import LimitsSpec
-from foparq.read.dxf.facts import _WITHOUT
 from foparq.report.words import LANGUAGES, Words
 
 SMALL = LimitsSpec(entities=100_000, vertices=1_000_000)
@@ -226,15 +225,3 @@ def test_reading_twice_gives_the_same(tmp_path: Path) -> None:
     assert first.items.item.tolist() == second.items.item.tolist()
     assert first.reading.skipped == second.reading.skipped
     assert shapely.to_wkb(first.items.geometry).tolist() == shapely.to_wkb(second.items.geometry).tolist()
-
-
-REASONS = [
-    *dict.fromkeys(_WITHOUT.values()), "malformed", "degenerate", "no-geometry", "unsupported", "too-many-vertices",
-    "missing-block", "external-reference", "blocks-skipped", "block-bomb", "xclip-ignored", "paper-space",
-]  # fmt: skip
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("reason", REASONS)
-def test_every_reason_of_skipping_has_its_words(language: str, reason: str) -> None:
-    assert Words(language).find(f"report.skipped.{reason}")

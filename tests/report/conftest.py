@@ -13,7 +13,7 @@ from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reaso
 from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import Findings, finding_keys, join_findings
 from foparq.model.delivery import Delivery, Source, SourceStatus
-from foparq.model.drawing import Drawing, DrawingUnit, Reading, Repair, Skipped, UnitOrigin
+from foparq.model.drawing import Drawing, DrawingUnit, Reading, Repair, Skipped, SkippedReason, UnitOrigin
 from foparq.model.items import Items
 from foparq.model.plane import plane_of
 from foparq.report.places import places
@@ -319,8 +319,8 @@ def rejected(drawing: Drawing) -> AuditRecord:
             status=SourceStatus.RECOVERED,
             items=117,
             skipped=(
-                Skipped(reason="unsupported", kind="3DSOLID", layer="0", count=3, handles=("A1", "A2")),
-                Skipped(reason="no-geometry", kind="LWPOLYLINE", layer=HOSTILE, count=1, handles=("B7",)),
+                Skipped(reason=SkippedReason.UNSUPPORTED, kind="3DSOLID", layer="0", count=3, handles=("A1", "A2")),
+                Skipped(reason=SkippedReason.NO_GEOMETRY, kind="LWPOLYLINE", layer=HOSTILE, count=1, handles=("B7",)),
             ),
         ),
         Source(path="pontos.csv", role="checkpoints", sha256="cd" * 32, bytes=412, status=SourceStatus.READ, items=7),

@@ -17,6 +17,7 @@ from foparq.evaluate.quality import QualityReport, Verdict
 from foparq.findings.outcome import Status
 from foparq.findings.table import Findings, join_findings
 from foparq.model.delivery import Delivery
+from foparq.model.drawing import SkippedReason
 from foparq.report.page.findings import group_findings
 from foparq.report.page.page import page, write_page
 from foparq.report.record import AuditRecord
@@ -271,7 +272,7 @@ def test_every_word_the_other_parts_hand_over_is_known(language: str) -> None:
     catalogue = tomllib.loads((REPOSITORY / "rules/measures.toml").read_text(encoding="utf-8"))
     wanted = {f"report.element.{measure['element']}" for measure in catalogue["measure"]}
     wanted |= {f"report.because.{id_}" for id_ in constants(r'because="([a-z-]+)"', "check")}
-    wanted |= {f"report.skipped.{id_}" for id_ in constants(r'Skipped\(\s*reason="([a-z-]+)"', "read")}
+    wanted |= {f"report.skipped.{reason}" for reason in SkippedReason}
     wanted |= {
         f"report.role.{id_}"
         for id_ in constants(r'role="(drawing|checkpoints|distances|features|manifest|other)"', "read")

@@ -8,7 +8,7 @@ import pytest
 from foparq.evaluate.quality import because
 from foparq.findings.outcome import Status
 from foparq.model.delivery import Source, SourceStatus
-from foparq.model.drawing import Skipped
+from foparq.model.drawing import Skipped, SkippedReason
 from foparq.report import sentences as say
 from foparq.report.record import AuditRecord
 from foparq.report.words import LANGUAGES, Words
@@ -59,9 +59,13 @@ def test_scopes_and_tolerances(rejected: AuditRecord) -> None:
     )
 
 
-def test_a_reason_that_nobody_wrote_is_an_error() -> None:
-    with pytest.raises(KeyError, match=r"report\.skipped\.never-heard"):
-        say.skipped_sentence(Words("en"), Skipped(reason="never-heard", kind="LINE", layer="0", count=1))
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("reason", SkippedReason)
+def test_every_reason_of_skipping_has_its_sentence(language: str, reason: SkippedReason) -> None:
+    part = Skipped(reason=reason, kind="KIND", layer="LAYER", count=1, name="NAME")
+    told = say.skipped_sentence(Words(language), part)
+    assert told
+    assert "{" not in told
 
 
 def test_the_meaning_of_a_rule_is_the_first_paragraph_of_its_manual() -> None:

@@ -4,22 +4,13 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from foparq.evaluate.measures import measures
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import LOST, Delivery
-from foparq.model.drawing import Drawing, Skipped
+from foparq.model.drawing import Skipped, SkippedReason
 from foparq.profile.schema import ElementSpec
-
-#: reasons of the reader behind which linework may hide that the delivery means to show
-HIDING = frozenset({
-    "blocks-skipped", "computed-table", "external-reference", "malformed", "missing-block", "multiline",
-    "no-geometry-column", "proxy", "surface", "table-missing", "too-many-vertices", "unsupported",
-    "unsupported-geometry", "unsupported-layer", "view", "virtual-table",
-})  # fmt: skip
 
 Parameters = tuple[tuple[str, float, str], ...]
 
@@ -127,24 +118,16 @@ def unseen(evidence: Evidence, name: str) -> tuple[Reason, ...]:
             why.append(because("unseen.block", element=name, file=drawing.path, blocks=bombs[:5], n=len(bombs)))
         if repairs := len(drawing.reading.repairs):
             why.append(because("unseen.repaired", element=name, file=drawing.path, n=repairs))
-        if faces := _faces(drawing):
-            why.append(because("unseen.skipped", element=name, file=drawing.path, kinds=["3DFACE"], n=faces))
         if hidden := [part for part in drawing.reading.skipped if _hides(part)]:
-            kinds = sorted({part.kind for part in hidden})
+            kinds = sorted({part.thing for part in hidden})
             n = sum(part.count for part in hidden)
             why.append(because("unseen.skipped", element=name, file=drawing.path, kinds=kinds[:5], n=n))
     return tuple(why)
 
 
-def _faces(drawing: Drawing) -> int:
-    """Faces in space: edges that no rule on lines saw. Filled areas of the plane (SOLID, TRACE) are no edges."""
-    items = drawing.items
-    return int(np.count_nonzero((items.kind == "3DFACE") & drawing.visible_rows()))
-
-
 def _hides(part: Skipped) -> bool:
-    # A view that no contents table lists is told under its own name; nothing was delivered through it.
-    return part.reason in HIDING and part.kind != part.reason
+    # Blocks that are not taken apart are told by name above.
+    return part.reason.opens and part.reason is not SkippedReason.BLOCK_BOMB
 
 
 def _finite(value: float) -> bool:

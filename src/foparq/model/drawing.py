@@ -9,15 +9,88 @@ from foparq.model.items import Items
 from foparq.model.plane import Plane
 
 
+class SkippedReason(StrEnum):
+    """Why things of a file reach no check; each is an id in the ``report`` catalogue under ``skipped.``."""
+
+    # of any drawing
+    MALFORMED = "malformed"
+    NO_GEOMETRY = "no-geometry"
+    PAPER_SPACE = "paper-space"  #: beside a drawing in model space: frames, stamps, viewports
+    PAPER_SPACE_ONLY = "paper-space-only"  #: model space holds nothing that is drawn
+    # of a DXF file
+    BLOCK_BOMB = "block-bomb"
+    BLOCKS_SKIPPED = "blocks-skipped"
+    DEGENERATE = "degenerate"
+    EXTERNAL_REFERENCE = "external-reference"
+    IMAGE = "image"
+    INFINITE_LINE = "infinite-line"
+    MISSING_BLOCK = "missing-block"
+    MULTILINE = "multiline"
+    OLE = "ole"
+    PROXY = "proxy"
+    SURFACE = "surface"  #: faces, meshes and solids in space, also those that stay among the items
+    TOO_MANY_VERTICES = "too-many-vertices"
+    UNDERLAY = "underlay"
+    UNSUPPORTED = "unsupported"
+    VIEWPORT = "viewport"
+    WIPEOUT = "wipeout"
+    XCLIP_IGNORED = "xclip-ignored"
+    # of a GeoPackage, Shapefile or GeoJSON
+    ATTRIBUTES = "attributes"
+    COMPUTED_TABLE = "computed-table"
+    NO_GEOMETRY_COLUMN = "no-geometry-column"
+    NOT_ASKED = "not-asked"
+    RASTER = "raster"
+    TABLE_MISSING = "table-missing"
+    TRIGGER = "trigger"
+    UNLISTED_VIEW = "unlisted-view"
+    UNLISTED_VIRTUAL_TABLE = "unlisted-virtual-table"
+    UNSUPPORTED_GEOMETRY = "unsupported-geometry"
+    UNSUPPORTED_LAYER = "unsupported-layer"
+    VIEW = "view"
+    VIRTUAL_TABLE = "virtual-table"
+
+    @property
+    def opens(self) -> bool:
+        """Whether linework may hide there that the delivery means to show, so that nothing can be concluded."""
+        return self not in _NO_LINEWORK
+
+
+#: what shows no linework of the delivery; a reason that nobody lists here leaves the question open
+_NO_LINEWORK = frozenset({
+    SkippedReason.ATTRIBUTES,  # rows without a place
+    SkippedReason.DEGENERATE,  # no extent: nobody sees it in CAD either
+    SkippedReason.IMAGE,  # the photograph that was drawn over
+    SkippedReason.INFINITE_LINE,  # an aid of construction, not plotted as drawing
+    SkippedReason.NO_GEOMETRY,  # nothing is drawn
+    SkippedReason.NOT_ASKED,  # the manifest names what is delivered
+    SkippedReason.OLE,  # a table or text of another program
+    SkippedReason.PAPER_SPACE,  # lettering of the sheet, while the drawing stands in model space
+    SkippedReason.RASTER,  # tiles of an image
+    SkippedReason.TRIGGER,  # runs when a row changes, draws nothing
+    SkippedReason.UNLISTED_VIEW,  # no layer: nothing is delivered through it
+    SkippedReason.UNLISTED_VIRTUAL_TABLE,  # as above
+    SkippedReason.VIEWPORT,  # a window on what is read elsewhere
+    SkippedReason.WIPEOUT,  # hides what lies beneath, which is read
+    SkippedReason.XCLIP_IGNORED,  # more was read than is shown, not less
+})  # fmt: skip
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Skipped:
     """Things of the file that no check will see, counted by reason."""
 
-    reason: str  #: id in the ``report`` catalogue under ``skipped.``: ``"paper-space"``, ``"no-geometry"``
+    reason: SkippedReason
     kind: str  #: entity type of the file
     layer: str
     count: int
     handles: tuple[str, ...] = ()  #: the first few
+    name: str = ""  #: block or reference that is not there: ``"PORTA_80"``, ``"PAVIMENTO (pavimento.dwg)"``
+
+    @property
+    def thing(self) -> str:
+        """What is not seen, in words of the file: ``"MLINE"``, ``"INSERT PORTA_80"``."""
+        return f"{self.kind} {self.name}" if self.name else self.kind
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -168,9 +168,10 @@ def _source(words: Words, source: Source) -> dict[str, Any]:
         "items": source.items,
         "skipped": [
             {
-                "reason": part.reason,
+                "reason": part.reason.value,
                 "kind": part.kind,
                 "layer": part.layer,
+                "name": part.name,
                 "count": part.count,
                 "handles": list(part.handles),
             }

@@ -5,17 +5,19 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from foparq.model.drawing import SkippedReason
 from foparq.model.items import Role
 from foparq.read.dxf.blocks import Census, count_blocks
 from foparq.read.dxf.curves import Point
 from foparq.read.dxf.facts import Common, Facts, InsertFacts, MalformedError, PlaceFacts, common_of, facts_of
+from foparq.read.dxf.kinds import Unseen
 from foparq.read.dxf.structure import Definition, asked, find_definition, model_entities
 from foparq.read.dxf.text import readable
 from foparq.read.dxf.units import Lettered, lettered_dimension
 
 MODEL = ""  #: name of model space among the blocks
 
-MALFORMED = "malformed"  #: reason of an entity that is damaged
+MALFORMED = Unseen(SkippedReason.MALFORMED)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,14 +86,16 @@ class _Blocks:
             self._found[name] = find_definition(self._document, name)
         return self._found[name]
 
-    def refusal(self, name: str) -> str | None:
+    def refusal(self, name: str) -> Unseen | None:
         """Why an insert of that block is not taken apart; ``None`` if it is."""
         definition = self.find(name)
+        shown = readable(name)
         if definition is None:
-            return "missing-block"
+            return Unseen(SkippedReason.MISSING_BLOCK, shown)
         if definition.external and not definition.entities:
-            return "external-reference"
-        return None if self._explode else "blocks-skipped"
+            file = readable(definition.file)
+            return Unseen(SkippedReason.EXTERNAL_REFERENCE, f"{shown} ({file})" if file else shown)
+        return None if self._explode else Unseen(SkippedReason.BLOCKS_SKIPPED, shown)
 
 
 def count_contents(contents: dict[str, Content]) -> Census:
@@ -147,8 +151,8 @@ def _sort_insert(content: Content, common: Common, facts: InsertFacts, blocks: _
         content.entities.append((common, PlaceFacts(facts.point, facts.extrusion, Role.HATCH)))
     elif kind in ("*D", "*T"):  # drawing of a dimension or table
         content.entities.append((common, PlaceFacts(facts.point, facts.extrusion, Role.ANNOTATION)))
-    elif (reason := blocks.refusal(facts.name)) is not None:
-        content.entities.append((common, reason))
+    elif (unseen := blocks.refusal(facts.name)) is not None:
+        content.entities.append((common, unseen))
     elif (definition := blocks.find(facts.name)) is not None:
         content.inserts.append(Insert(common, facts, definition.name, attributes))
         return

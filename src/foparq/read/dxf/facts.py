@@ -10,12 +10,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from ezdxf.entities.dxfentity import DXFTagStorage
 from ezdxf.lldxf.const import DXFError
 from ezdxf.math import fit_points_to_cad_cv
 from ezdxf.xclip import XClip
 
+from foparq.model.drawing import SkippedReason
 from foparq.model.items import Role
 from foparq.read.dxf.curves import Point
+from foparq.read.dxf.kinds import UNSEEN, Unseen
 
 #: what ezdxf lets through when an entity or a file is damaged
 LEAKS: tuple[type[Exception], ...] = (
@@ -118,7 +121,7 @@ class InsertFacts:
     clipped: bool
 
 
-Facts = LineFacts | ArcFacts | EllipseFacts | SplineFacts | FaceFacts | PlaceFacts | InsertFacts | str
+Facts = LineFacts | ArcFacts | EllipseFacts | SplineFacts | FaceFacts | PlaceFacts | InsertFacts | Unseen
 
 _UP: Point = (0.0, 0.0, 1.0)
 
@@ -126,6 +129,8 @@ _UP: Point = (0.0, 0.0, 1.0)
 def common_of(entity: Any) -> Common:  # noqa: ANN401 - ezdxf entities share no useful type
     """Layer, handle, colour and visibility of an entity; damaged values become the defaults of the format."""
     found = entity.dxf.all_existing_dxf_attribs()
+    if isinstance(entity, DXFTagStorage):  # of a type that ezdxf keeps as it is
+        found = {**found, **entity.graphic_properties()}
     layer, handle, colour = found.get("layer"), found.get("handle"), found.get("color", 256)
     return Common(
         kind=str(entity.dxftype()),
@@ -137,7 +142,7 @@ def common_of(entity: Any) -> Common:  # noqa: ANN401 - ezdxf entities share no 
 
 
 def facts_of(entity: Any) -> Facts:  # noqa: ANN401
-    """Facts of an entity, or the reason why it has none that an audit could use.
+    """Facts of an entity; :class:`Unseen` if it has none that an audit could use.
 
     Raises
     ------
@@ -145,11 +150,11 @@ def facts_of(entity: Any) -> Facts:  # noqa: ANN401
         If the entity is damaged.
     """
     kind = entity.dxftype()
-    if kind in _WITHOUT:
-        return _WITHOUT[kind]
+    if kind in UNSEEN:
+        return Unseen(UNSEEN[kind])
     reader = _READERS.get(kind)
     if reader is None:
-        return "unsupported"
+        return Unseen(SkippedReason.UNSUPPORTED)
     try:
         return reader(entity, entity.dxf.all_existing_dxf_attribs())
     except LEAKS as error:
@@ -183,7 +188,7 @@ def _lwpolyline(entity: Any, found: Attributes) -> Facts:  # noqa: ANN401
 def _polyline(entity: Any, found: Attributes) -> Facts:  # noqa: ANN401
     flags = int(found.get("flags", 0))
     if flags & 16 or flags & 64:  # mesh or polyface
-        return "surface"
+        return Unseen(SkippedReason.SURFACE)
     vertices = list(entity.vertices)
     if flags & 4:  # spline fit: the frame of control points is not drawn
         vertices = [vertex for vertex in vertices if not vertex.dxf.get("flags", 0) & 16]
@@ -221,7 +226,7 @@ def _spline(entity: Any, found: Attributes) -> Facts:  # noqa: ANN401
         return SplineFacts(control, knots, weights, int(found.get("degree", 3)), closed)
     fit = [_triple(row) for row in entity.fit_points]
     if not fit:
-        return "no-geometry"
+        return Unseen(SkippedReason.NO_GEOMETRY)
     tangents = None
     if "start_tangent" in found and "end_tangent" in found:
         tangents = [found["start_tangent"], found["end_tangent"]]
@@ -274,7 +279,7 @@ def _hatch(entity: Any, found: Attributes) -> Facts:  # noqa: ANN401
         for edge in getattr(path, "edges", ()):
             start = edge.start_point
             return PlaceFacts((float(start[0]), float(start[1]), elevation), _extrusion(found))
-    return "no-geometry"
+    return Unseen(SkippedReason.NO_GEOMETRY)
 
 
 def _insert(entity: Any, found: Attributes) -> Facts:  # noqa: ANN401
@@ -311,15 +316,4 @@ _READERS: dict[str, Reader] = {
     "SHAPE": _place("insert", own_system=True), "TOLERANCE": _place("insert", own_system=False),
     "ACAD_TABLE": _place("insert", own_system=False), "DIMENSION": _dimension, "ARC_DIMENSION": _dimension,
     "LARGE_RADIAL_DIMENSION": _dimension, "LEADER": _leader, "MULTILEADER": _multileader, "MLEADER": _multileader,
-}  # fmt: skip
-
-_WITHOUT: dict[str, str] = {
-    **dict.fromkeys(
-        ("3DSOLID", "BODY", "REGION", "MESH", "SURFACE", "EXTRUDEDSURFACE", "LOFTEDSURFACE", "REVOLVEDSURFACE",
-         "SWEPTSURFACE", "PLANESURFACE", "NURBSURFACE"),
-        "surface",
-    ),
-    "IMAGE": "image", "WIPEOUT": "wipeout", "RAY": "infinite-line", "XLINE": "infinite-line", "VIEWPORT": "viewport",
-    "PDFUNDERLAY": "underlay", "DWFUNDERLAY": "underlay", "DGNUNDERLAY": "underlay", "PDFREFERENCE": "underlay",
-    "OLE2FRAME": "ole", "OLEFRAME": "ole", "ACAD_PROXY_ENTITY": "proxy", "MLINE": "multiline",
 }  # fmt: skip

@@ -9,8 +9,9 @@ import shapely
 
 from foparq.columns import Flags, Index, Integers, Reals, Texts
 from foparq.errors import UnsafeError
-from foparq.model.drawing import Skipped
+from foparq.model.drawing import Skipped, SkippedReason
 from foparq.model.items import Items, Role, no_items
+from foparq.read.dxf.kinds import Unseen
 
 LINE, FACE, PLACE = 0, 1, 2  #: forms of geometry
 _EXAMPLES = 5  #: handles kept for a reason of skipping
@@ -56,27 +57,30 @@ class Layers:
         return hidden
 
 
+_Key = tuple[SkippedReason, str, str, str]
+
+
 @dataclass(slots=True)
 class Tally:
-    """What is skipped: count and first handles by (reason, kind, layer)."""
+    """What is skipped: count and first handles by (reason, kind, layer, name)."""
 
-    counts: dict[tuple[str, str, str], int] = field(default_factory=dict)
-    handles: dict[tuple[str, str, str], list[str]] = field(default_factory=dict)
+    counts: dict[_Key, int] = field(default_factory=dict)
+    handles: dict[_Key, list[str]] = field(default_factory=dict)
 
-    def add(self, reason: str, kind: str, layer: str, handle: str, count: int = 1) -> None:
+    def add(self, unseen: Unseen, kind: str, layer: str, handle: str, count: int = 1) -> None:
         """Count one entity, or one that stands for several."""
-        key = (reason, kind, layer)
+        key = (unseen.reason, kind, layer, unseen.name)
         self.counts[key] = self.counts.get(key, 0) + count
         known = self.handles.setdefault(key, [])
         if handle and len(known) < _EXAMPLES and handle not in known:
             known.append(handle)
 
     def records(self) -> tuple[Skipped, ...]:
-        """Ordered by reason, kind and layer."""
+        """Ordered by reason, kind, layer and name."""
         return tuple(
-            Skipped(reason=reason, kind=kind, layer=layer, count=self.counts[reason, kind, layer],
-                    handles=tuple(self.handles[reason, kind, layer]))
-            for reason, kind, layer in sorted(self.counts)
+            Skipped(reason=key[0], kind=key[1], layer=key[2], name=key[3], count=self.counts[key],
+                    handles=tuple(self.handles[key]))
+            for key in sorted(self.counts)
         )  # fmt: skip
 
 

@@ -12,10 +12,12 @@ from dataclasses import replace
 import numpy as np
 
 from foparq.columns import Reals
+from foparq.model.drawing import SkippedReason
 from foparq.model.items import Holder
 from foparq.read.dxf.content import MODEL, Content, Insert
 from foparq.read.dxf.curves import axes, cos_sin
 from foparq.read.dxf.facts import InsertFacts
+from foparq.read.dxf.kinds import Unseen
 from foparq.read.dxf.sketch import Builder, Places, texts
 from foparq.read.dxf.units import Lettered
 
@@ -58,10 +60,10 @@ def place_contents(
         _place_dimensions(content.dimensions, places, builder)
         for position, insert in enumerate(content.inserts, 1):
             if insert.block in cyclic or (name == MODEL and insert.block in refused):
-                builder.skip("block-bomb", insert.common, places)
+                builder.skip(Unseen(SkippedReason.BLOCK_BOMB, insert.facts.name), insert.common, places)
                 continue
             if insert.facts.clipped:
-                builder.skip("xclip-ignored", insert.common, places)
+                builder.skip(Unseen(SkippedReason.XCLIP_IGNORED, insert.facts.name), insert.common, places)
             within = _placed(insert, position, places, contents[insert.block].base, builder)
             waiting.setdefault(insert.block, []).append(within)
             if insert.attributes:

@@ -14,7 +14,8 @@ import numpy as np
 import shapely
 
 from foparq.errors import UnreadableError, UnsafeError
-from foparq.model.drawing import Bomb, Dimensions, Reading
+from foparq.model.drawing import Bomb, Dimensions, Reading, SkippedReason
+from foparq.model.items import Items
 from foparq.profile.schema import LimitsSpec
 from foparq.read.dxf.blocks import Census, admit
 from foparq.read.dxf.content import MODEL, Content, count_contents, read_contents
@@ -22,12 +23,13 @@ from foparq.read.dxf.curves import Sagitta
 from foparq.read.dxf.facts import MalformedError, common_of
 from foparq.read.dxf.gather import Columns, Layers, Tally
 from foparq.read.dxf.items import place_contents
+from foparq.read.dxf.kinds import ANNOTATIONS, Unseen
 from foparq.read.dxf.load import load_document
 from foparq.read.dxf.sketch import Builder, texts
 from foparq.read.dxf.structure import asked, layer_table, paper_entities
 from foparq.read.dxf.text import doubly_encoded, readable
 from foparq.read.dxf.units import Lettered, drawing_unit
-from foparq.read.raw import RawDrawing
+from foparq.read.raw import RawDrawing, holds_drawing
 
 _UTF8_SINCE = "AC1021"  #: R2007; the code page of the header no longer counts
 
@@ -88,8 +90,8 @@ def _read(path: Path, limits: LimitsSpec, sagitta: float, unit: str | None, *, e
     builder = Builder(layers, Columns(limits.vertices, path.name), Tally(), Sagitta(absolute), loaded.written)
     with np.errstate(all="ignore"):  # coordinates that are no finite numbers are delivered as they come out
         place_contents(contents, census.order, refused.keys(), census.cyclic, builder)
-    _count_paper(document, builder)
     items = builder.columns.items(layers)
+    _count_paper(document, items, builder)
     names = tuple(dict.fromkeys([*layers.table, *layers.names]))
     reading = Reading(
         version=version,
@@ -125,11 +127,15 @@ def _bombs(model: Content, census: Census, refused: Mapping[str, int], builder: 
     return tuple(bombs)
 
 
-def _count_paper(document: Any, builder: Builder) -> None:  # noqa: ANN401
+def _count_paper(document: Any, items: Items, builder: Builder) -> None:  # noqa: ANN401
+    # Linework on the sheet frames the drawing, unless nothing else is drawn.
+    frame = SkippedReason.PAPER_SPACE if holds_drawing(items) else SkippedReason.PAPER_SPACE_ONLY
     for entity in paper_entities(document):
         common = asked(partial(common_of, entity))
         layer = builder.layers.names[builder.layers.number(readable(common.layer))]
-        builder.tally.add("paper-space", common.kind, layer, builder.handle(common))
+        lettering = common.kind in ANNOTATIONS or common.kind == "VIEWPORT"
+        reason = SkippedReason.PAPER_SPACE if lettering else frame
+        builder.tally.add(Unseen(reason), common.kind, layer, builder.handle(common))
 
 
 def _dimensions(found: Sequence[Lettered]) -> Dimensions | None:

@@ -7,11 +7,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from foparq.columns import Flags, Index, Integers, Reals, Texts
+from foparq.model.drawing import SkippedReason
 from foparq.model.items import Role
 from foparq.read.dxf.curves import Sagitta
 from foparq.read.dxf.draw import Shape, draw
 from foparq.read.dxf.facts import Common, Facts
 from foparq.read.dxf.gather import FACE, LINE, PLACE, Chunk, Columns, Layers, Tally, role_number
+from foparq.read.dxf.kinds import FACES, Unseen
 from foparq.read.dxf.units import Lettered
 
 _LEVELS = 40  #: enlargement beyond 2 ** 40 is no drawing
@@ -62,11 +64,11 @@ class Builder:
         number = self.layers.number(common.layer)
         return places.layer if number == 0 else np.full(len(places), number, dtype=np.int32)
 
-    def skip(self, reason: str, common: Common, places: Places) -> None:
+    def skip(self, unseen: Unseen, common: Common, places: Places) -> None:
         """Count an entity as skipped at every place."""
         numbers, counts = np.unique(self.effective(common, places), return_counts=True)
         for number, count in zip(numbers, counts, strict=True):
-            self.tally.add(reason, common.kind, self.layers.names[number], self.handle(common), int(count))
+            self.tally.add(unseen, common.kind, self.layers.names[number], self.handle(common), int(count))
 
     def place(self, entities: Entities, places: Places) -> None:
         """Draw the entities of one definition at every place.
@@ -82,8 +84,10 @@ class Builder:
             there = places.take(chosen)
             shapes = [(common, draw(common.kind, facts, self.sagitta.tightened(level))) for common, facts in entities]
             for common, shape in shapes:
-                if isinstance(shape, str):
+                if isinstance(shape, Unseen):
                     self.skip(shape, common, there)
+                elif common.kind in FACES:
+                    self.skip(Unseen(SkippedReason.SURFACE), common, there)
             drawn = [(n, common, shape) for n, (common, shape) in enumerate(shapes, 1) if isinstance(shape, Shape)]
             if not drawn:
                 continue

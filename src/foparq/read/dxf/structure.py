@@ -23,6 +23,7 @@ class Definition:
     base: Point
     entities: list[Any]
     external: bool
+    file: str  #: that an external reference points to
 
 
 def asked(question: Callable[[], Answer]) -> Answer:
@@ -90,4 +91,5 @@ def _definition(block: Any) -> Definition | None:  # noqa: ANN401
     # A variable attribute definition is a form; the ATTRIB of each insert is what is drawn.
     drawn = [e for e in block if e.dxftype() != "ATTDEF" or int(e.dxf.get("flags", 0)) & _CONSTANT]
     external = bool(int(block.block.dxf.get("flags", 0)) & _EXTERNAL)
-    return Definition(str(block.name), (float(x), float(y), float(z)), drawn, external)
+    file = str(block.block.dxf.get("xref_path", ""))
+    return Definition(str(block.name), (float(x), float(y), float(z)), drawn, external, file)

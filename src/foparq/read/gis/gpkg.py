@@ -12,7 +12,7 @@ import numpy as np
 from pyogrio.errors import GeometryError
 
 from foparq.errors import ManifestError, UnreadableError
-from foparq.model.drawing import Skipped
+from foparq.model.drawing import Skipped, SkippedReason
 from foparq.model.items import Items
 from foparq.profile.schema import LimitsSpec
 from foparq.read.gis.crs import unit_of
@@ -64,7 +64,7 @@ def read_gpkg(path: Path, *, limits: LimitsSpec, sagitta: float, unit: str | Non
     asked = {table.name for table in tables}
     skipped = list(contents.skipped)
     skipped += [
-        Skipped(reason="not-asked", kind=table.geometry_type, layer=table.name, count=table.rows)
+        Skipped(reason=SkippedReason.NOT_ASKED, kind=table.geometry_type, layer=table.name, count=table.rows)
         for table in contents.tables
         if table.name not in asked and table.name != _PLACEHOLDER
     ]
@@ -75,8 +75,7 @@ def read_gpkg(path: Path, *, limits: LimitsSpec, sagitta: float, unit: str | Non
                 continue
             layer = _layer(path, name, table)
             if layer is None:
-                lost = Skipped(reason="unsupported-layer", kind=table.geometry_type, layer=table.name, count=table.rows)
-                skipped.append(lost)
+                skipped.append(_unsupported(table))
                 continue
             items, odd = items_of(_straight(path, table, layer, limits, sagitta, unit), prefix=f"{table.name}:")
             pieces.append((items, layer.system))
@@ -84,6 +83,10 @@ def read_gpkg(path: Path, *, limits: LimitsSpec, sagitta: float, unit: str | Non
     return Taken(
         pieces=tuple(pieces), version=contents.version, encoding="UTF-8", skipped=tuple(skipped), layers=contents.layers
     )  # fmt: skip
+
+
+def _unsupported(table: Table) -> Skipped:
+    return Skipped(reason=SkippedReason.UNSUPPORTED_LAYER, kind=table.geometry_type, layer=table.name, count=table.rows)
 
 
 def _layer(path: Path, name: str, table: Table) -> Layer | None:

@@ -16,7 +16,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from foparq.errors import UnreadableError, UnsafeError
-from foparq.model.drawing import Skipped
+from foparq.model.drawing import Skipped, SkippedReason
 
 APPLICATION_IDS = {0x47504B47: "GPKG", 0x47503130: "GPKG 1.0", 0x47503131: "GPKG 1.1"}
 _STEPS = 1000  #: instructions of SQLite between two looks at the clock
@@ -29,6 +29,13 @@ _USUAL_TRIGGER = re.compile(
 _PROGRAM = re.compile(r"^\s*CREATE\s+VIRTUAL\b", re.IGNORECASE)
 _SMALL = {ord(letter): ord(letter) + 32 for letter in "ABCDEFGHIJKLMNOPQRSTUVWXYZ"}
 _UNDEFINED = (-1, 0)  #: ids of the two reference systems that say nothing
+#: what a registered table holds, if it is no layer of features; of anything else nobody knows what it shows
+_OTHER_CONTENTS = {
+    "attributes": SkippedReason.ATTRIBUTES,
+    "aspatial": SkippedReason.ATTRIBUTES,
+    "tiles": SkippedReason.RASTER,
+    "2d-gridded-coverage": SkippedReason.RASTER,
+}
 _COMPUTED = (2, 3)  #: ``hidden`` in ``PRAGMA table_xinfo`` of virtual and stored computed columns
 
 
@@ -215,31 +222,32 @@ def _layers(schema: _Schema) -> tuple[list[Table], list[Skipped]]:
     return sorted(tables, key=lambda table: table.name), sorted(skipped, key=lambda record: record.layer)
 
 
-def _reason(schema: _Schema, key: str, data_type: str, column: str) -> str:
-    # Why a registered layer is not read; "" if it is.
+def _reason(schema: _Schema, key: str, data_type: str, column: str) -> SkippedReason | None:
+    # Why a registered layer is not read; None if it is.
     if data_type != "features":
-        return "attributes" if data_type in ("attributes", "aspatial") else "raster"
+        return _OTHER_CONTENTS.get(data_type, SkippedReason.UNSUPPORTED_LAYER)
     held = schema.objects.get(key)
     if held is None:
-        return "table-missing"
+        return SkippedReason.TABLE_MISSING
     if held.is_program:
-        return "view" if held.kind == "view" else "virtual-table"
+        return SkippedReason.VIEW if held.kind == "view" else SkippedReason.VIRTUAL_TABLE
     columns = schema.columns(held.name)
     if any(row[6] in _COMPUTED for row in columns):
-        return "computed-table"
-    return "" if _small(column) in {_small(str(row[1])) for row in columns} else "no-geometry-column"
+        return SkippedReason.COMPUTED_TABLE
+    known = {_small(str(row[1])) for row in columns}
+    return None if _small(column) in known else SkippedReason.NO_GEOMETRY_COLUMN
 
 
 def _unlisted(schema: _Schema, layers: tuple[str, ...]) -> list[Skipped]:
     # Views, virtual tables and triggers that are no layers: never run, but told.
     listed = {_small(name) for name in layers}
-    found = [("trigger", name) for name in schema.triggers if not _USUAL_TRIGGER.search(name)]
+    found = [(SkippedReason.TRIGGER, name) for name in schema.triggers if not _USUAL_TRIGGER.search(name)]
     found += [
-        ("view" if held.kind == "view" else "virtual-table", held.name)
+        (SkippedReason.UNLISTED_VIEW if held.kind == "view" else SkippedReason.UNLISTED_VIRTUAL_TABLE, held.name)
         for key, held in schema.objects.items()
         if held.is_program and key not in listed and not (key.startswith("rtree_") and held.kind == "table")
     ]
-    return [Skipped(reason=reason, kind=reason, layer=name, count=1) for reason, name in sorted(found)]
+    return [Skipped(reason=reason, kind=reason.value, layer=name, count=1) for reason, name in sorted(found)]
 
 
 def quoted(name: str) -> str:

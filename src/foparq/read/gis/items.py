@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from foparq.columns import Flags, Geometries, Index, Texts
-from foparq.model.drawing import Skipped
+from foparq.model.drawing import Skipped, SkippedReason
 from foparq.model.items import Items, Role, no_items
 
 _MULTI = 4  #: shapely's type ids from here on are collections
@@ -100,7 +100,7 @@ def _without_exotic(layer: Layer, geometry: Geometries) -> tuple[Flags, tuple[Sk
             found.setdefault(kind, []).append(str(layer.fid[row]))
     skipped = tuple(
         Skipped(
-            reason="unsupported-geometry",
+            reason=SkippedReason.UNSUPPORTED_GEOMETRY,
             kind=kind,
             layer=layer.name,
             count=len(handles),

@@ -13,6 +13,7 @@ Rows become items by these rules:
 """
 
 import warnings
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,7 @@ import shapely
 from pyogrio.errors import GeometryError
 
 from foparq.errors import UnreadableError, UnsafeError
-from foparq.model.drawing import Reading
+from foparq.model.drawing import Reading, Skipped, SkippedReason
 from foparq.model.items import Items
 from foparq.profile.schema import LimitsSpec
 from foparq.read.gis.crs import describe, unit_of
@@ -28,7 +29,7 @@ from foparq.read.gis.gpkg import read_gpkg
 from foparq.read.gis.items import items_of, join_items
 from foparq.read.gis.layers import GDAL_ERRORS, Taken, first_line, hold, read_layer
 from foparq.read.guard.sniff import Format, format_of
-from foparq.read.raw import RawDrawing
+from foparq.read.raw import RawDrawing, holds_drawing
 
 #: endings of the files that belong to a Shapefile, beside ``.shp``
 SHAPEFILE_ENDINGS = frozenset({".shx", ".dbf", ".prj", ".cpg", ".qix", ".qpj", ".sbn", ".sbx", ".qmd"})
@@ -86,11 +87,20 @@ def read_gis(
     reading = Reading(
         version=taken.version,
         encoding=taken.encoding,
-        skipped=taken.skipped,
+        skipped=(*taken.skipped, *_on_paper(items)),
         layers=taken.layers,
         crs=", ".join(describe(text) for text in systems if text),
     )
     return RawDrawing(items=items, reading=reading, unit=unit_of(systems or ("",), _bounds(items), unit))
+
+
+def _on_paper(items: Items) -> tuple[Skipped, ...]:
+    # A CAD export keeps the sheet among its rows: a frame, unless nothing else is drawn.
+    reason = SkippedReason.PAPER_SPACE if holds_drawing(items) else SkippedReason.PAPER_SPACE_ONLY
+    found = Counter(zip(items.kind[items.paper].tolist(), items.layer[items.paper].tolist(), strict=True))
+    return tuple(
+        Skipped(reason=reason, kind=kind, layer=layer, count=count) for (kind, layer), count in sorted(found.items())
+    )
 
 
 def companions(path: Path) -> dict[str, Path]:
