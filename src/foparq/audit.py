@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """One delivery, audited: read, check, evaluate. The whole flow on a page."""
 
+import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -11,12 +12,14 @@ import numpy as np
 import shapely
 
 from foparq import __version__
-from foparq.check.delivered_features import count_features
-from foparq.check.run import check_drawing
+from foparq.check.drawn.features import count_features
+from foparq.check.run import check_part
 from foparq.check.validate import validate_checks
 from foparq.errors import ManifestError
 from foparq.evaluate.evaluate import evaluate
-from foparq.findings.table import join_findings
+from foparq.evaluate.evidence import Evidence
+from foparq.findings.counts import FeatureCounts
+from foparq.findings.table import Severity, join_findings
 from foparq.model.delivery import Delivery
 from foparq.profile.load import load_manifest, load_profile
 from foparq.profile.schema import Profile
@@ -136,16 +139,22 @@ def _judged(
     progress: Progress | None, *, loose: bool,
 ) -> Audit:  # fmt: skip
     started = datetime.now(UTC).isoformat(timespec="seconds")
-    checked = [check_drawing(drawing, profile, scale, progress) for drawing in delivery.drawings]
+    checked = [check_part(part, profile, scale, progress) for part in delivery.parts]
     outcomes = tuple(outcome for one in checked for outcome in one.outcomes)
+    findings = join_findings([one.findings for one in checked])
     gap = profile.completeness.gap.si(scale) if profile.completeness and not loose else None
-    counts = count_features(delivery.drawings, gap=gap) if gap is not None else None
-    traces = (*log, *(trace for one in checked for trace in one.log))
+    counts, uncounted = (None, ()) if gap is None else _counted(delivery, gap)
+    traces = (*log, *(trace for one in checked for trace in one.log), *uncounted)
+    evidence = Evidence(
+        delivery=delivery, outcomes=outcomes, counts=counts, scale=scale, crashed=bool(log or uncounted),
+        faults=int(np.count_nonzero(findings.severity != Severity.NOTE)),
+    )  # fmt: skip
+    evaluated = evaluate(profile, evidence, loose=loose)
     record = AuditRecord(
         delivery=delivery,
-        quality=evaluate(profile, scale, delivery, outcomes, counts, crashed=bool(traces)),
+        quality=evaluated.quality,
         outcomes=outcomes,
-        findings=join_findings([one.findings for one in checked]),
+        findings=findings,
         profile=profile.name,
         profile_title=profile.title.get(language, profile.name),
         profile_sha256=profile.sha256,
@@ -158,7 +167,15 @@ def _judged(
         norms=profile.norms,
         written=profile.limits.written,
     )
-    return Audit(record=record, log=traces)
+    return Audit(record=record, log=(*traces, *evaluated.log))
+
+
+def _counted(delivery: Delivery, gap: float) -> tuple[FeatureCounts | None, tuple[str, ...]]:
+    """Delivered features, or the traceback of what went wrong on our side."""
+    try:
+        return count_features(delivery.drawings, gap=gap), ()
+    except Exception:  # noqa: BLE001 - a crash is ours: elements that need the counts are undecided
+        return None, (f"counting features\n{traceback.format_exc()}",)
 
 
 def versions() -> dict[str, str]:

@@ -13,7 +13,7 @@ from ezdxf.document import Drawing as Document
 from ezdxf.layouts import BaseLayout
 from tests.evaluate.deliveries import drawn, judge, listed, messages, spec
 
-from foparq.check.delivered_features import count_features
+from foparq.check.drawn.features import count_features
 from foparq.evaluate.quality import ElementStatus
 from foparq.findings.counts import FeatureCounts
 from foparq.model.drawing import Drawing, DrawingUnit, Reading, UnitOrigin

@@ -10,8 +10,8 @@ import pytest
 import shapely
 from tests.read.drawn import new, read, read_back
 
+from foparq.check.drawn.unit_evidence import unit_evidence
 from foparq.check.rules.dom.unit_contradiction import unit_contradiction
-from foparq.check.unit_evidence import unit_evidence
 from foparq.model.drawing import Dimensions, Drawing, DrawingUnit, Reading, UnitOrigin
 from foparq.model.items import Items, no_items
 from foparq.model.plane import plane_of

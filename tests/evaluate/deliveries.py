@@ -8,7 +8,9 @@ import numpy as np
 import shapely
 
 from foparq.evaluate.evaluate import evaluate
+from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Element, QualityReport
+from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import Severity
@@ -51,7 +53,10 @@ def judge(
     crashed: bool = False, scale: float | None = 50.0,
 ) -> QualityReport:  # fmt: skip
     """Evaluate, and make every sentence in both languages: a reason without one is an error."""
-    report = evaluate(profile(*elements), scale, delivery, outcomes, counts, crashed=crashed)
+    evidence = Evidence(delivery=delivery, outcomes=outcomes, counts=counts, scale=scale, crashed=crashed)
+    evaluated = evaluate(profile(*elements), evidence)
+    assert not evaluated.log
+    report = evaluated.quality
     for language in ("en", "pt-BR"):
         words = Words(language)
         for reason in (*report.why, *(reason for element in report.elements for reason in element.why)):
@@ -139,24 +144,24 @@ def drawn(*drawings: Drawing, features: FeatureList | None = None, lost: Sequenc
     sources = [source(part.path) for part in drawings]
     sources += [source(path, status=SourceStatus.REFUSED) for path in lost]
     sources += [source("feicoes.csv", "features")] if features is not None else []
-    return Delivery(title="t", sources=tuple(sources), drawings=drawings, features=features)
+    return Delivery(title="t", sources=tuple(sources), parts=drawings, features=features)
 
 
 def outcome(
     name: str, faulty: Sequence[int] = (), *, checked: int = 0, source: str = "a.dxf", found: int | None = None,
-    status: Status | None = None, **changes: Any,
+    status: Status | None = None, unjudged: Sequence[int] = (), **changes: Any,
 ) -> Outcome:  # fmt: skip
-    """Outcome of a rule."""
+    """Outcome of a rule on rows of a drawing."""
     found = len(faulty) if found is None else found
     status = status or (Status.FAULTY if found else Status.CLEAN)
     return Outcome(
         rule=name[:3].upper(), name=name, scope=f"{source}: *", source=source, status=status, checked=checked,
-        found=found, faulty=np.array(faulty, dtype=np.intp), **changes,
+        found=found, faulty=np.array(faulty, dtype=np.intp), unjudged=np.array(unjudged, dtype=np.intp), **changes,
     )  # fmt: skip
 
 
-def not_run(name: str, because: str, source: str = "a.dxf") -> Outcome:
-    status = Status.CRASHED if because == "crashed" else Status.NOT_RUN
+def not_run(name: str, because: Because, source: str = "a.dxf") -> Outcome:
+    status = Status.CRASHED if because is Because.CRASHED else Status.NOT_RUN
     return outcome(name, status=status, because=because, source=source)
 
 

@@ -23,6 +23,7 @@ from tests.evaluate.deliveries import (
 
 from foparq.evaluate.balance import balances
 from foparq.evaluate.quality import ElementStatus, Verdict
+from foparq.findings.because import Because
 from foparq.model.delivery import Delivery, SourceStatus
 from foparq.model.drawing import Bomb
 
@@ -205,7 +206,7 @@ def test_a_doubtful_unit_leaves_counts_without_meaning() -> None:
             Q5,
             delivery=delivery,
             counts=counted(("window", "N", count)),
-            outcomes=[not_run("gap", "unit-doubtful")],
+            outcomes=[not_run("gap", Because("unit-doubtful"))],
         )
         for element in report.elements:
             assert (element.status, messages(element)) == (UNDECIDED, ["features.unit-doubtful"])

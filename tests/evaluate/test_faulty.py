@@ -6,7 +6,8 @@ import pytest
 from tests.evaluate.deliveries import drawing, drawn, judge, messages, not_run, one, outcome, parameter, spec
 
 from foparq.evaluate.quality import ElementStatus, Verdict
-from foparq.findings.outcome import Status
+from foparq.findings.because import Because
+from foparq.findings.outcome import SetAside, Status
 from foparq.model.drawing import Bomb, Skipped, SkippedReason
 from foparq.units import Quantity
 
@@ -14,6 +15,8 @@ PASS, FAIL, UNDECIDED = ElementStatus.PASS, ElementStatus.FAIL, ElementStatus.UN
 RULES = ("undershoot", "overshoot", "gap")
 Q3 = spec("faulty-rate", id="Q3", rules=RULES)
 HERE = drawn(drawing())
+
+SIX = range(50, 56)
 
 
 def clean(*but: str, checked: int = 100, source: str = "a.dxf") -> list:
@@ -27,7 +30,7 @@ def test_the_station_before_correction() -> None:
     """976 features, 2 overlaps, 64 overshoots and undershoots, no gaps: 66 at fault pass 10 %."""
     outcomes = [
         outcome("line-overlap", range(2), checked=976), outcome("undershoot", range(2, 40), checked=976),
-        outcome("overshoot", range(40, 66), checked=976), not_run("gap", "nothing-to-check"),
+        outcome("overshoot", range(40, 66), checked=976), not_run("gap", Because.NOTHING),
     ]  # fmt: skip
     whole = spec("faulty-rate", id="Q3", rules=("line-overlap", "undershoot", "overshoot", "gap"))
     overlap = spec("found-rate", id="Q3-overlap", required=False, rules=("line-overlap",))
@@ -81,7 +84,7 @@ def test_scopes_of_one_rule_are_added_but_never_beyond_the_drawing() -> None:
 def test_features_set_aside_stay_in_the_denominator() -> None:
     outcomes = [
         outcome("duplicate", range(5), checked=100),
-        *(outcome(name, checked=95, skipped=5) for name in RULES),
+        *(outcome(name, checked=95, unjudged=range(5)) for name in RULES),
     ]
     element = one(spec("faulty-rate", rules=("duplicate", *RULES)), delivery=HERE, outcomes=outcomes)
     assert (element.n, element.value, element.status) == (100, 0.05, PASS)
@@ -90,40 +93,58 @@ def test_features_set_aside_stay_in_the_denominator() -> None:
 
 def test_features_set_aside_for_uncounted_faults_may_leave_it_open() -> None:
     outcomes = [
-        outcome("invalid-geometry", range(50, 56), checked=100), outcome("undershoot", range(5), checked=94, skipped=6),
-        *(outcome(name, checked=94, skipped=6) for name in ("overshoot", "gap")),
+        outcome("invalid-geometry", SIX, checked=100), outcome("undershoot", range(5), checked=94, unjudged=SIX),
+        *(outcome(name, checked=94, unjudged=SIX) for name in ("overshoot", "gap")),
     ]  # fmt: skip
     element = one(Q3, delivery=HERE, outcomes=outcomes)
     assert (element.status, messages(element)) == (UNDECIDED, ["faulty.aside"])
     assert parameter(element, "set-aside") == 6.0
     few = [part for part in outcomes if part.name != "undershoot"]
-    assert (
-        one(Q3, delivery=HERE, outcomes=[*few, outcome("undershoot", range(4), checked=94, skipped=6)]).status is PASS
+    four = outcome("undershoot", range(4), checked=94, unjudged=SIX)
+    assert one(Q3, delivery=HERE, outcomes=[*few, four]).status is PASS
+
+
+def test_only_what_was_set_aside_counts_as_set_aside() -> None:
+    noted = outcome("free-end", range(20, 60), checked=100)
+    element = one(
+        Q3, delivery=HERE, outcomes=[noted, outcome("undershoot", range(10), checked=100), *clean("undershoot")]
     )
+    assert (element.status, parameter(element, "set-aside")) == (PASS, 0.0)
+
+
+def test_items_that_a_rule_could_not_judge_are_named() -> None:
+    odd = SetAside(item="2A", layer="PISO", rule="")
+    outcomes = [outcome("gap", checked=99, unjudged=[7], aside=(odd,)), *clean("gap")]
+    (remark,) = (why for why in one(Q3, delivery=HERE, outcomes=outcomes).why if why.message == "checks.unfit")
+    assert dict(remark.fields)["items"] == ["2A (PISO)"]
 
 
 # --- rules that did not run ------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("because", ["unit-unknown", "unit-doubtful", "requirement"])
-def test_a_rule_that_could_not_run_leaves_it_open(because: str) -> None:
+@pytest.mark.parametrize("because", [because for because in Because if because.opens])
+def test_a_rule_that_could_not_run_leaves_it_open(because: Because) -> None:
     element = one(Q3, delivery=HERE, outcomes=[not_run("gap", because), *clean("gap")])
     assert element.status is UNDECIDED
-    assert messages(element) == [f"checks.{because if because.startswith('unit') else 'not-run'}"]
+    assert messages(element) == [f"checks.{because}"]
+
+
+def test_every_reason_leaves_the_question_open_but_for_two() -> None:
+    assert {because for because in Because if not because.opens} == {Because.RAN, Because.NOTHING}
 
 
 def test_nothing_to_check_is_no_doubt() -> None:
-    assert one(Q3, delivery=HERE, outcomes=[not_run("gap", "nothing-to-check"), *clean("gap")]).status is PASS
+    assert one(Q3, delivery=HERE, outcomes=[not_run("gap", Because.NOTHING), *clean("gap")]).status is PASS
 
 
 def test_nothing_to_check_anywhere_is_no_pass() -> None:
-    outcomes = [not_run(name, "nothing-to-check") for name in RULES]
+    outcomes = [not_run(name, Because.NOTHING) for name in RULES]
     element = one(Q3, delivery=HERE, outcomes=outcomes)
     assert (element.status, element.value, messages(element)) == (ElementStatus.NOT_ASSESSED, None, ["checks.nothing"])
 
 
 def test_unknown_unit_on_every_drawing_is_undecided() -> None:
-    element = one(Q3, delivery=HERE, outcomes=[not_run(name, "unit-unknown") for name in RULES])
+    element = one(Q3, delivery=HERE, outcomes=[not_run(name, Because.UNIT_UNKNOWN) for name in RULES])
     assert (element.status, messages(element)) == (UNDECIDED, ["checks.unit-unknown"])
 
 
@@ -142,7 +163,7 @@ def test_no_drawing() -> None:
 def test_a_crash_is_never_the_deliverys_fault() -> None:
     outcomes = [
         outcome("undershoot", range(90), checked=100),
-        not_run("gap", "crashed"),
+        not_run("gap", Because.CRASHED),
         outcome("overshoot", checked=100),
     ]
     report = judge(Q3, delivery=HERE, outcomes=outcomes)
@@ -153,7 +174,7 @@ def test_a_crash_is_never_the_deliverys_fault() -> None:
 def test_faults_on_one_drawing_reject_only_if_the_unchecked_one_cannot_outweigh_them() -> None:
     outcomes = [
         outcome("undershoot", range(20), checked=100), *clean("undershoot"),
-        *(not_run(name, "unit-unknown", "b.dxf") for name in RULES),
+        *(not_run(name, Because("unit-unknown"), "b.dxf") for name in RULES),
     ]  # fmt: skip
     small = drawn(drawing(n=100), drawing("b.dxf", n=50))
     large = drawn(drawing(n=100), drawing("b.dxf", n=150))
@@ -223,8 +244,11 @@ def test_a_rate_with_a_limit() -> None:
     assert one(rate, delivery=HERE, outcomes=[*outcomes[:1], outcome("overshoot", [1, 2], checked=200)]).status is FAIL
     assert one(rate, delivery=UNSEEN["unseen.block"], outcomes=outcomes).status is UNDECIDED
     assert one(rate, delivery=HERE, outcomes=outcomes[:1]).status is ElementStatus.NOT_ASSESSED
-    assert one(rate, delivery=HERE, outcomes=[outcomes[0], not_run("overshoot", "crashed")]).status is UNDECIDED
-    aside = [outcome("undershoot", [1], checked=190, skipped=10), outcome("overshoot", [1], checked=190, skipped=10)]
+    assert one(rate, delivery=HERE, outcomes=[outcomes[0], not_run("overshoot", Because.CRASHED)]).status is UNDECIDED
+    aside = [
+        outcome("undershoot", [1], checked=190, unjudged=range(20, 30)),
+        outcome("overshoot", [1], checked=190, unjudged=range(20, 30)),
+    ]
     assert messages(one(rate, delivery=HERE, outcomes=aside)) == ["found.aside"]
 
 

@@ -12,6 +12,7 @@ from foparq.check.registry import all_rules
 from foparq.evaluate.balance import Gap
 from foparq.evaluate.measures import measure_counting, measures
 from foparq.evaluate.quality import Verdict
+from foparq.findings.because import Because
 from foparq.profile.load import load_profile, shipped_profiles
 from foparq.report.words import LANGUAGES, Words
 from foparq.resources import shipped
@@ -31,6 +32,8 @@ def reasons() -> set[str]:
                 cases = [part.value for part in ast.walk(node.args[0]) if isinstance(part, ast.Constant)]
                 cases = cases or ["fail", "fail-all-the-same"]
                 found |= {f"{kind}.{case}" for kind in ("absolute", "relative") for case in cases}
+    found |= {f"checks.{because}" for because in Because if because.opens}
+    found |= {f"files.{because}" for because in Because if because.opens and because is not Because.CRASHED}
     return found - {"measures.toml"}
 
 

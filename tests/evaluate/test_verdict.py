@@ -23,6 +23,7 @@ from tests.evaluate.deliveries import (
 
 from foparq.evaluate.evaluate import KINDS
 from foparq.evaluate.quality import ElementStatus, Verdict
+from foparq.findings.because import Because
 from foparq.findings.outcome import Status
 from foparq.model.delivery import Delivery, SourceStatus
 from foparq.profile.load import load_profile
@@ -35,7 +36,7 @@ def rate(id_: str, rule: str, **changes: object) -> ElementSpec:
 
 
 GOOD, BAD, OPEN = rate("good", "a"), rate("bad", "b"), rate("open", "c")
-OUTCOMES = [outcome("a", checked=9), outcome("b", range(9), checked=9), not_run("c", "unit-unknown")]
+OUTCOMES = [outcome("a", checked=9), outcome("b", range(9), checked=9), not_run("c", Because("unit-unknown"))]
 HERE = Delivery(title="", sources=(source("a.dxf"),))
 
 
@@ -85,7 +86,7 @@ def test_a_named_file_that_could_not_be_read(status: SourceStatus, known: Verdic
 
 def test_a_crash_anywhere_leaves_it_open() -> None:
     assert verdict(GOOD, crashed=True) is Verdict.UNDECIDED
-    elsewhere = [*OUTCOMES, outcome("z", status=Status.CRASHED, because="crashed")]
+    elsewhere = [*OUTCOMES, outcome("z", status=Status.CRASHED, because=Because.CRASHED)]
     assert verdict(GOOD, outcomes=elsewhere) is Verdict.UNDECIDED
     assert verdict(GOOD, BAD, crashed=True) is Verdict.REJECTED
 
@@ -105,7 +106,7 @@ def station(**tables: object) -> dict:
     rules = next(element for element in load_profile("et-doc-foparq-a").elements if element.id == "Q3").rules
     given = {
         "points": checkpoints(points), "lengths": distances(with_moments(29, 0.1 * MM, 10 * MM)),
-        "drawings": (drawing(classes={"J": "window"}),), "features": listed(("window", "N", 142)),
+        "parts": (drawing(classes={"J": "window"}),), "features": listed(("window", "N", 142)),
     }  # fmt: skip
     outcomes = [outcome(name, checked=976) for name in rules]
     return {

@@ -10,13 +10,14 @@ import pytest
 import shapely
 
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
+from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import Findings, finding_keys, join_findings
+from foparq.geom.places import place_on
 from foparq.model.delivery import Delivery, Source, SourceStatus
 from foparq.model.drawing import Drawing, DrawingUnit, Reading, Repair, Skipped, SkippedReason, UnitOrigin
 from foparq.model.items import Items
 from foparq.model.plane import plane_of
-from foparq.report.places import places
 from foparq.report.record import AuditRecord
 
 HOSTILE = "</script><img src=x onerror=alert(1)>"
@@ -147,7 +148,7 @@ def findings_of(
         where, lambda c: drawing.plane.project(np.nan_to_num(c), drawing.unit.metres or 1.0), include_z=True
     )
     item, layer = column([row[0] for row in rows]), column([row[1] for row in rows])
-    keys = finding_keys(rule, layer, item, column([""] * n), places(where), 0.001)
+    keys = finding_keys(rule, layer, item, column([""] * n), place_on(where), 0.001)
     return Findings(
         key=keys,
         rule=column([rule] * n),
@@ -159,8 +160,10 @@ def findings_of(
         handle=column([row[0] for row in rows]),
         inserts=column(["1F/2B" if row[0] == "2C" else "" for row in rows]),
         other=column([other] * n),
+        other_layer=column([""] * n),
         where=where,
         sheet=sheet,
+        place=place_on(where),
         size=np.array([row[3] for row in rows], dtype=float),
         unit=column([unit] * n),
         limit=np.full(n, limit),
@@ -338,17 +341,17 @@ def rejected(drawing: Drawing) -> AuditRecord:
     )
     runs = (
         outcome("GEO001", "invalid-geometry", parameters=(), **rows("GEO001")),
-        outcome("TOP011", "undershoot", skipped=2, **rows("TOP011")),
-        outcome("TOP012", "overshoot", skipped=2, **rows("TOP012")),
+        outcome("TOP011", "undershoot", unjudged=np.arange(2), **rows("TOP011")),
+        outcome("TOP012", "overshoot", unjudged=np.arange(2), **rows("TOP012")),
         outcome("TOP001", "duplicate", **rows("TOP001")),
         outcome("TOP031", "area-overlap", parameters=(("smallest", 1e-4, "m2"),), **rows("TOP031")),
         outcome("DOM002", "hidden-entities", parameters=(), **{**rows("DOM002"), "checked": 1}),
         outcome("TOP013", "free-end"),
-        outcome("TOP032", "gap", Status.NOT_RUN, because="nothing-to-check", checked=0),
-        outcome("GEO004", "self-intersection", Status.CRASHED, because="crashed", checked=0),
+        outcome("TOP032", "gap", Status.NOT_RUN, because=Because.NOTHING, checked=0),
+        outcome("GEO004", "self-intersection", Status.CRASHED, because=Because.CRASHED, checked=0),
     )
     return AuditRecord(
-        delivery=Delivery(title="Estação Ferroviária de Presidente Prudente", sources=sources, drawings=(drawing,)),
+        delivery=Delivery(title="Estação Ferroviária de Presidente Prudente", sources=sources, parts=(drawing,)),
         quality=quality,
         outcomes=runs,
         findings=findings,
@@ -369,7 +372,7 @@ def accepted(rejected: AuditRecord) -> AuditRecord:
     """The same delivery without a fault."""
     good = tuple(replace(one, status=ElementStatus.PASS, value=0.001, why=()) for one in rejected.quality.elements)
     clean = tuple(
-        replace(run, status=Status.CLEAN, found=0, faulty=np.empty(0, dtype=np.intp), because="")
+        replace(run, status=Status.CLEAN, found=0, faulty=np.empty(0, dtype=np.intp), because=Because.RAN)
         for run in rejected.outcomes
     )
     read = tuple(replace(source, skipped=()) for source in rejected.delivery.sources[:3])

@@ -120,7 +120,7 @@ def test_reference_system_is_that_of_the_drawing(
     rejected: AuditRecord, drawing: Drawing, crs: str, srs: int, tmp_path: Path
 ) -> None:
     placed = replace(drawing, reading=replace(drawing.reading, crs=crs))
-    path = written(replace(rejected, delivery=replace(rejected.delivery, drawings=(placed,))), tmp_path)
+    path = written(replace(rejected, delivery=replace(rejected.delivery, parts=(placed,))), tmp_path)
     assert ask(path, "SELECT DISTINCT srs_id FROM gpkg_geometry_columns") == [(srs,)]
 
 
@@ -131,7 +131,7 @@ def test_drawings_that_differ_in_reference_system_share_none(
         replace(drawing, path=f"{n}.dxf", reading=replace(drawing.reading, crs=crs))
         for n, crs in enumerate(("EPSG:31982", "EPSG:31983"))
     )
-    path = written(replace(rejected, delivery=replace(rejected.delivery, drawings=drawings)), tmp_path)
+    path = written(replace(rejected, delivery=replace(rejected.delivery, parts=drawings)), tmp_path)
     assert ask(path, "SELECT DISTINCT srs_id FROM gpkg_geometry_columns") == [(-1,)]
 
 

@@ -5,7 +5,7 @@ import base64
 import hashlib
 import re
 import tomllib
-from dataclasses import replace
+from dataclasses import fields, replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -14,6 +14,7 @@ import pytest
 import shapely
 
 from foparq.evaluate.quality import QualityReport, Verdict
+from foparq.findings.because import Because
 from foparq.findings.outcome import Status
 from foparq.findings.table import Findings, join_findings
 from foparq.model.delivery import Delivery
@@ -161,9 +162,10 @@ def test_the_verdict_is_a_sentence(rejected: AuditRecord, verdict: Verdict, port
 
 
 def loose(record: AuditRecord, findings: Findings) -> AuditRecord:
-    nothing = QualityReport(verdict=Verdict.UNDECIDED, why=(), elements=())
+    faulty = np.any(findings.severity != "note")
+    quality = QualityReport(verdict=Verdict.REJECTED if faulty else Verdict.UNDECIDED, why=(), elements=())
     runs = tuple(replace(run, found=int(np.sum(findings.rule == run.rule))) for run in record.outcomes)
-    return replace(record, loose=True, quality=nothing, findings=findings, outcomes=runs)
+    return replace(record, loose=True, quality=quality, findings=findings, outcomes=runs)
 
 
 def test_loose_files_have_a_count_and_no_verdict(rejected: AuditRecord) -> None:
@@ -173,7 +175,9 @@ def test_loose_files_have_a_count_and_no_verdict(rejected: AuditRecord) -> None:
     assert "rejeitada." not in text
     assert "Elementos de qualidade" not in text
     assert "Nenhuma falha foi encontrada" in read(loose(rejected, join_findings([]))).words("pt-BR")
-    idle = tuple(replace(run, status=Status.NOT_RUN, found=0, because="unit-unknown") for run in rejected.outcomes)
+    idle = tuple(
+        replace(run, status=Status.NOT_RUN, found=0, because=Because.UNIT_UNKNOWN) for run in rejected.outcomes
+    )
     assert "Nada pôde ser verificado." in read(replace(loose(rejected, join_findings([])), outcomes=idle)).words(
         "pt-BR"
     )
@@ -207,7 +211,8 @@ def test_a_complete_audit_claims_no_gap(accepted: AuditRecord) -> None:
 def test_findings_are_counted_in_full_and_listed_up_to_a_bound(rejected: AuditRecord) -> None:
     one = rejected.findings
     row = int(np.flatnonzero(one.rule == "TOP011")[0])
-    many = Findings(**{name: np.repeat(getattr(one, name)[row : row + 1], 2000) for name in one.__slots__})
+    columns = [column.name for column in fields(one)]
+    many = Findings(**{name: np.repeat(getattr(one, name)[row : row + 1], 2000, axis=0) for name in columns})
     runs = tuple(replace(run, found=2000) for run in rejected.outcomes if run.rule == "TOP011")
     reader = read(replace(rejected, findings=many, outcomes=runs))
     assert "500 de 2.000 apontamentos estão listados aqui." in reader.words("pt-BR")
@@ -271,7 +276,7 @@ def test_every_word_the_other_parts_hand_over_is_known(language: str) -> None:
     words = Words(language)
     catalogue = tomllib.loads((REPOSITORY / "rules/measures.toml").read_text(encoding="utf-8"))
     wanted = {f"report.element.{measure['element']}" for measure in catalogue["measure"]}
-    wanted |= {f"report.because.{id_}" for id_ in constants(r'because="([a-z-]+)"', "check")}
+    wanted |= {f"report.because.{because}" for because in Because if because is not Because.RAN}
     wanted |= {f"report.skipped.{reason}" for reason in SkippedReason}
     wanted |= {
         f"report.role.{id_}"

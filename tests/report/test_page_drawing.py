@@ -210,7 +210,7 @@ def test_png_holds_the_pixels() -> None:
 def test_twenty_thousand_polylines_are_drawn_as_they_are(rejected: AuditRecord, drawing: Drawing) -> None:
     large = with_items(drawing, items_of(segments(20_000, 6)))
     assert picture(large).form == "exact"
-    delivery = replace(rejected.delivery, drawings=(large,))
+    delivery = replace(rejected.delivery, parts=(large,))
     assert len(page(replace(rejected, delivery=delivery, findings=no_findings())).encode()) < 3_000_000
 
 
@@ -221,14 +221,14 @@ def test_a_large_drawing_is_simplified_and_says_so(rejected: AuditRecord, drawin
     one = picture(large)
     assert one.form == "simplified"
     assert sum(len(stroke) for path in one.paths for stroke in drawn(path.path)) <= EXACT_VERTICES
-    text = page(replace(rejected, delivery=replace(rejected.delivery, drawings=(large,)), findings=no_findings()))
+    text = page(replace(rejected, delivery=replace(rejected.delivery, parts=(large,)), findings=no_findings()))
     assert "this overview is simplified to a tenth of a pixel" in text
 
 
 def test_a_very_large_drawing_is_toned_and_bounded(rejected: AuditRecord, drawing: Drawing) -> None:
     large = with_items(drawing, items_of(segments(150_000, 3)))
     assert picture(large).form == "toned"
-    text = page(replace(rejected, delivery=replace(rejected.delivery, drawings=(large,)), findings=no_findings()))
+    text = page(replace(rejected, delivery=replace(rejected.delivery, parts=(large,)), findings=no_findings()))
     assert len(text.encode()) < 3_000_000
     assert "this overview shows how dense the linework is" in text
 
@@ -280,7 +280,7 @@ def test_what_lies_absurdly_far_is_still_a_number(rejected: AuditRecord, drawing
     findings = plant(
         large, "TOP011", "undershoot", [("C8", "0", far, 1e300), ("C8", "0", shapely.Point(-1e300, 5), 1.0)]
     )
-    record = replace(rejected, delivery=replace(rejected.delivery, drawings=(large,)), findings=findings)
+    record = replace(rejected, delivery=replace(rejected.delivery, parts=(large,)), findings=findings)
     text = page(record)
     assert "translate(1000000000 " in text
     assert "translate(-1000000000 " in text

@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from foparq.evaluate.quality import because
+from foparq.findings.because import Because
 from foparq.findings.outcome import Status
 from foparq.model.delivery import Source, SourceStatus
 from foparq.model.drawing import Skipped, SkippedReason
@@ -54,7 +55,7 @@ def test_scopes_and_tolerances(rejected: AuditRecord) -> None:
     )
     assert say.parameter_name(Words("pt-BR"), "measure-23") == "contagem conforme a medida 23 da ISO 19157"
     assert say.outcome_because(Words("en"), run) == ""
-    assert say.outcome_because(Words("en"), replace(run, status=Status.CRASHED, because="crashed")).startswith(
+    assert say.outcome_because(Words("en"), replace(run, status=Status.CRASHED, because=Because.CRASHED)).startswith(
         "foparq failed"
     )
 

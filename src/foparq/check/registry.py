@@ -4,7 +4,7 @@
 import graphlib
 import importlib
 import pkgutil
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import cache
 from types import MappingProxyType
 
@@ -53,3 +53,14 @@ def in_order(codes: set[str]) -> list[str]:
         ordered.extend(ready)
         sorter.done(*ready)
     return ordered
+
+
+def required_by(names: Collection[str]) -> set[str]:
+    """Names of all rules that some rules require, directly or through others, without themselves."""
+    rules = {rule.name: rule for rule in all_rules().values()}
+    waiting, found = [rules[name] for name in names], set[str]()
+    while waiting:
+        needed = {all_rules()[code].name for code in waiting.pop().requires} - found
+        found |= needed
+        waiting.extend(rules[name] for name in needed)
+    return found - set(names)

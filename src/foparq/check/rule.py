@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The record of a rule and the decorator that makes one.
 
-A rule is a pure function over columns. Its signature is its declaration: the one positional parameter is the input,
-by type; keyword-only parameters are tolerances, by unit.
+A rule is a pure function over columns. Its signature is its declaration: positional parameters are inputs, by type;
+keyword-only parameters are tolerances, by unit; it returns what is at fault, or differences that it measured.
 """
 
 import inspect
@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from foparq.errors import RuleError
-from foparq.findings.hits import Hits
+from foparq.findings.hits import Deviations, Hits
 from foparq.units import Unit
 
-Check = Callable[..., Hits]
+Check = Callable[..., Hits | Deviations]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,13 +24,24 @@ class Rule:
     code: str  #: ``"TOP021"``, never reused
     name: str  #: ``"undershoot"``: names the fault, reads after "allow ..."
     check: Check
-    subject: type  #: input, one of the types of ``model.inputs``
+    inputs: tuple[tuple[str, type], ...]  #: name and type, one of ``model.inputs``; hits are told by rows of the first
     tolerances: tuple[tuple[str, str], ...]  #: name and SI unit, in order of the signature
     size_unit: str  #: SI unit of ``Hits.size``: ``"m"``, ``"m2"``, ``"items"``, ``"1"``
     limit: str  #: the tolerance shown beside a finding: what it exceeds, or should have reached; ``""`` if none
     measures: tuple[str, ...]  #: ISO 19157 measure ids this rule can feed
     requires: tuple[str, ...]  #: codes; an item on which one of them found a fault is set aside
     preview: bool  #: reported as a note, cannot reject
+    repeats: bool  #: what it finds at fault repeats another item: dependants do not see it
+
+    @property
+    def subject(self) -> type:
+        """Type of the first input."""
+        return self.inputs[0][1]
+
+    @property
+    def metric(self) -> bool:
+        """Whether a tolerance is a length or an area: it means nothing where the unit is unknown."""
+        return any(unit in {"m", "m2"} for _, unit in self.tolerances)
 
     @property
     def fault(self) -> str:
@@ -52,6 +63,7 @@ def rule(
     measures: tuple[str, ...] = (),
     requires: tuple[str, ...] = (),
     preview: bool = False,
+    repeats: bool = False,
 ) -> Callable[[Check], Check]:
     """Declare a function as a rule.
 
@@ -66,9 +78,11 @@ def rule(
     measures : tuple of str
         ISO 19157 measure ids.
     requires : tuple of str
-        Codes of rules whose faulty items this rule does not look at.
+        Codes of rules whose faulty items this rule does not judge. They stay in its input as neighbours of others.
     preview : bool
         True until the rule was compared over a corpus.
+    repeats : bool
+        True if a faulty item of this rule only repeats another: rules that require this one do not see it at all.
 
     Returns
     -------
@@ -78,16 +92,16 @@ def rule(
     Raises
     ------
     RuleError
-        If the signature is not one input followed by keyword-only tolerances without defaults.
+        If the signature is not inputs followed by keyword-only tolerances without defaults.
     """
 
     def declare(check: Check) -> Check:
-        subject, tolerances = _read_signature(check, code)
+        inputs, tolerances = _read_signature(check, code)
         if limit and limit not in dict(tolerances):
             raise RuleError("rule.limit", code=code, limit=limit)
         record = Rule(
-            code=code, name=name, check=check, subject=subject, tolerances=tolerances, size_unit=size, limit=limit,
-            measures=measures, requires=requires, preview=preview,
+            code=code, name=name, check=check, inputs=inputs, tolerances=tolerances, size_unit=size, limit=limit,
+            measures=measures, requires=requires, preview=preview, repeats=repeats,
         )  # fmt: skip
         check.rule = record  # type: ignore[attr-defined]
         return check
@@ -95,20 +109,26 @@ def rule(
     return declare
 
 
-def _read_signature(check: Check, code: str) -> tuple[type, tuple[tuple[str, str], ...]]:
+Inputs = tuple[tuple[str, type], ...]
+Tolerances = tuple[tuple[str, str], ...]
+
+
+def _read_signature(check: Check, code: str) -> tuple[Inputs, Tolerances]:
     hints: dict[str, Any] = get_type_hints(check, include_extras=True)
-    inputs: list[Any] = []
+    inputs: list[tuple[str, type]] = []
     tolerances: list[tuple[str, str]] = []
     for parameter in inspect.signature(check).parameters.values():
         hint = hints.get(parameter.name)
         if parameter.kind is not inspect.Parameter.KEYWORD_ONLY:
-            inputs.append(hint)
+            if not isinstance(hint, type):
+                raise RuleError("rule.signature", code=code, parameter=check.__name__)
+            inputs.append((parameter.name, hint))
         elif parameter.default is not inspect.Parameter.empty:
             raise RuleError("rule.default", code=code, parameter=parameter.name)
         elif get_origin(hint) is Annotated and isinstance(unit := get_args(hint)[1], Unit):
             tolerances.append((parameter.name, unit.symbol))
         else:
             raise RuleError("rule.no-unit", code=code, parameter=parameter.name)
-    if len(inputs) != 1 or not isinstance(inputs[0], type) or hints.get("return") is not Hits:
+    if not inputs or hints.get("return") not in (Hits, Deviations):
         raise RuleError("rule.signature", code=code, parameter=check.__name__)
-    return inputs[0], tuple(tolerances)
+    return tuple(inputs), tuple(tolerances)

@@ -1,249 +1,241 @@
 # SPDX-License-Identifier: MIT
-"""Run the rules of a profile on one drawing.
+"""Run the rules of a profile on one part of a delivery, whatever its kind.
 
 A crash of a rule is ours: it becomes an outcome ``crashed`` with its traceback in the log, never a finding.
 """
 
-import math
 import time
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import shapely
 
-from foparq.check.inputs import DrawingInputs, matches
+from foparq.check.bounds import Bounded, Broken, budget_of, unbounded
+from foparq.check.calls import Call, Judged, calls_of, judged, missing
 from foparq.check.registry import all_rules, in_order
 from foparq.check.rule import Rule
-from foparq.columns import Geometries, Index, Reals, Texts
-from foparq.findings.hits import NOBODY, Hits
+from foparq.check.subject import Subject, subject_of
+from foparq.check.told import findings_of
+from foparq.findings.because import Because
+from foparq.findings.hits import NOBODY, Deviations, Hits
 from foparq.findings.outcome import Outcome, Status
-from foparq.findings.table import Findings, Severity, finding_keys, join_findings
-from foparq.model.drawing import Drawing, UnitOrigin
-from foparq.model.inputs import Named
-from foparq.model.items import Role
+from foparq.findings.table import Findings, join_findings
+from foparq.model.part import Part
 from foparq.profile.schema import CheckSpec, Profile
 
-_KEY_GRID = 0.001  #: metres: above the noise of coordinates, below the distance of two findings
-_UNIT_RULE = "unit-contradiction"
-
 Progress = Callable[[str], None]
+Check = tuple[Rule, CheckSpec]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Checked:
-    """What the rules found on one drawing."""
+    """What the rules found on one part."""
 
     outcomes: tuple[Outcome, ...]
     findings: Findings
-    log: tuple[str, ...]  #: tracebacks of rules that crashed
+    log: tuple[str, ...]  #: tracebacks of what crashed
 
 
-def check_drawing(drawing: Drawing, profile: Profile, scale: float | None, progress: Progress | None = None) -> Checked:
-    """Run every check of the profile on one drawing.
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """A call that is about to run."""
+
+    check: int  #: number of the check in its order
+    outcome: Outcome  #: what is known of it before
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """What one call came to."""
+
+    check: int
+    outcome: Outcome
+    findings: Findings | None = None
+    trace: str = ""  #: of a crash
+
+
+def check_part(
+    part: Part, profile: Profile, scale: float | None, progress: Progress | None = None, bounded: Bounded = unbounded
+) -> Checked:
+    """Run every check of the profile on one part.
 
     Parameters
     ----------
-    drawing : Drawing
+    part : Part
     profile : Profile
         Its checks must be valid, see :func:`foparq.check.validate.validate_checks`.
     scale : float or None
         Denominator of the drawing scale.
     progress : callable, optional
         Told the name of each rule before it runs.
+    bounded : Bounded
+        Keeps the rules within the bounds of the profile. A rule that exceeds them is not run, the others are.
 
     Returns
     -------
     Checked
         Outcomes in order of rules, findings in their defined order.
     """
-    inputs = DrawingInputs(drawing, hidden=profile.reading.hidden == "check")
+    results: list[Result] = []
+    spent = 0.0
+    while True:
+        budget = budget_of(part, profile.limits, spent)
+        begun: Begun | None = None
+        broken: Broken | None = Broken(Because.LIMIT) if budget.seconds == 0 else None
+        run = bounded(results_of, (part, profile, scale, tuple(results)), budget) if broken is None else ()
+        for event in run:
+            if isinstance(event, Result):
+                results.append(event)
+                spent += event.outcome.seconds
+                begun = None
+            elif isinstance(event, Begun):
+                begun = event
+                if progress is not None:
+                    progress(event.outcome.name)
+            else:
+                broken = event if isinstance(event, Broken) else broken
+        if broken is None:
+            break
+        spent += budget.at_once
+        if begun is None:  # nothing more can be run: not even the inputs could be made
+            results.extend(_rest(part, profile, results, broken))
+            break
+        results.append(Result(begun.check, _broken(begun.outcome, broken), trace=broken.trace))
+    return _joined(results)
+
+
+def results_of(part: Part, profile: Profile, scale: float | None, done: Sequence[Result]) -> Iterator[Begun | Result]:
+    """Calls of all checks on one part, one after the other, beyond those that are done."""
     rules = all_rules()
-    code_of = {rule.name: code for code, rule in rules.items()}
-    specs = [(rules[code_of[spec.rule]], spec) for spec in profile.checks]
-    order = {code: n for n, code in enumerate(in_order({rule.code for rule, _ in specs}))}
-    # Statements about the unit come first: they decide whether tolerances in metres mean anything.
-    specs.sort(key=lambda pair: (pair[0].name != _UNIT_RULE, order[pair[0].code]))
-    faulty: dict[str, frozenset[int]] = {}
-    outcomes: list[Outcome] = []
-    tables: list[Findings] = []
-    log: list[str] = []
-    for rule, spec in specs:
-        if progress is not None:
-            progress(rule.name)
-        without = frozenset[int]().union(*(faulty.get(code, frozenset()) for code in rule.requires))
-        for layers in _scopes(spec, rule.subject, inputs):
-            call = _Call(rule, spec, layers, without, scale)
-            outcome, table, trace = _run(call, inputs, _doubt(inputs, outcomes))
-            outcomes.append(outcome)
-            log.extend(trace)
-            if table is not None:
-                tables.append(table)
-            faulty[rule.code] = faulty.get(rule.code, frozenset()) | frozenset(outcome.faulty.tolist())
-    outcomes.sort(key=lambda outcome: (outcome.rule, outcome.scope))
-    return Checked(outcomes=tuple(outcomes), findings=join_findings(tables), log=tuple(log))
+    try:
+        subject = subject_of(part, profile)
+    except Exception:  # noqa: BLE001 - whatever goes wrong here is our fault and must not end the audit
+        yield from _rest(part, profile, done, Broken(Because.CRASHED, f"{part.path}\n{traceback.format_exc()}"))
+        return
+    outcomes = [result.outcome for result in done]
+    before = len(done)
+    for n, (rule, spec) in enumerate(_ordered(profile, subject.leading)):
+        if not subject.knows(rule.subject):
+            continue
+        for call in _calls(rule, spec, scale, subject):
+            if before:
+                before -= 1
+                continue
+            outcome = _before(call.rule, call.spec, part, call.scope(part.path))
+            outcome = replace(outcome, about_file=subject.states(rule.subject))
+            yield Begun(n, outcome)
+            result = _run(n, call, outcome, subject, outcomes, rules)
+            outcomes.append(result.outcome)
+            yield result
 
 
-@dataclass(frozen=True, slots=True)
-class _Call:
-    rule: Rule
-    spec: CheckSpec
-    layers: tuple[str, ...]
-    without: frozenset[int]
-    scale: float | None
-
-    @property
-    def tolerances(self) -> dict[str, float]:
-        return {name: self.spec.tolerances[name].si(self.scale) for name, _ in self.rule.tolerances}
+def _ordered(profile: Profile, leading: Sequence[str]) -> list[Check]:
+    """Checks so that every rule comes after those it requires, and the leading ones first."""
+    rules = all_rules()
+    by_name = {rule.name: rule for rule in rules.values()}
+    checks = [(by_name[spec.rule], spec) for spec in profile.checks]
+    order = {code: n for n, code in enumerate(in_order({rule.code for rule, _ in checks}))}
+    return sorted(checks, key=lambda check: (check[0].name not in leading, order[check[0].code]))
 
 
-def _scopes(spec: CheckSpec, subject: type, inputs: DrawingInputs) -> Sequence[tuple[str, ...]]:
-    if not spec.apart:
-        return [spec.layers]
-    alone = [(_literal(layer),) for layer in inputs.layers() if matches(layer, spec.layers)]
-    return [layers for layers in alone if inputs.holds(subject, layers)] or [spec.layers]
+def _calls(rule: Rule, spec: CheckSpec, scale: float | None, subject: Subject) -> list[Call]:
+    try:
+        return calls_of(rule, spec, scale, subject)
+    except Exception:  # noqa: BLE001 - the call meets the same again, where it is told
+        return [Call(rule, spec, (spec.layers,) * len(rule.inputs), scale)]
 
 
-def _literal(layer: str) -> str:
-    """Pattern that only this layer matches."""
-    return "".join(f"[{c}]" if c in "*?[" else c for c in layer)
-
-
-def _doubt(inputs: DrawingInputs, outcomes: Sequence[Outcome]) -> str:
-    """Why tolerances in metres mean nothing on this drawing; empty if they do."""
-    unit = inputs.drawing.unit
-    if unit.metres is None:
-        return "unit-unknown"
-    doubted = any(outcome.name == _UNIT_RULE and outcome.status is Status.FAULTY for outcome in outcomes)
-    if doubted and unit.origin is not UnitOrigin.STATED:
-        return "unit-doubtful"
-    return "plane-doubtful" if inputs.seen_edge_on else ""
-
-
-def _run(call: _Call, inputs: DrawingInputs, doubt: str) -> tuple[Outcome, Findings | None, list[str]]:
-    rule, drawing = call.rule, inputs.drawing
-    nothing = np.empty(0, dtype=np.intp)
-    outcome = Outcome(
-        rule=rule.code, name=rule.name, scope=f"{drawing.path}: {', '.join(call.layers)}", source=drawing.path,
-        status=Status.NOT_RUN, checked=0, found=0, faulty=nothing, preview=rule.preview,
+def _before(rule: Rule, spec: CheckSpec, part: Part, scope: str) -> Outcome:
+    return Outcome(
+        rule=rule.code, name=rule.name, scope=scope, source=part.path, status=Status.NOT_RUN, checked=0, found=0,
+        faulty=np.empty(0, dtype=np.intp), preview=rule.preview, helper=spec.helper,
+        layers=tuple(sorted({*spec.layers, *(pattern for layers in spec.on.values() for pattern in layers)})),
     )  # fmt: skip
-    if doubt and any(unit in {"m", "m2"} for _, unit in rule.tolerances):
-        return replace(outcome, because=doubt), None, []
-    tolerances = call.tolerances
-    parameters = tuple((name, tolerances[name], unit) for name, unit in rule.tolerances)
-    outcome = replace(outcome, parameters=parameters)
+
+
+def _broken(outcome: Outcome, broken: Broken) -> Outcome:
+    status = Status.CRASHED if broken.because is Because.CRASHED else Status.NOT_RUN
+    return replace(outcome, status=status, because=broken.because)
+
+
+def _rest(part: Part, profile: Profile, done: Sequence[Result], broken: Broken) -> list[Result]:
+    """Every check that was not begun, broken."""
+    last = done[-1].check if done else -1
+    checks = list(enumerate(_ordered(profile, ())))
+    scope = "{}: {}".format
+    return [
+        Result(
+            n, _broken(_before(rule, spec, part, scope(part.path, ", ".join(spec.layers))), broken), trace=broken.trace
+        )
+        for n, (rule, spec) in checks
+        if n > last
+    ]
+
+
+def _run(
+    number: int, call: Call, outcome: Outcome, subject: Subject, outcomes: Sequence[Outcome], rules: Mapping[str, Rule]
+) -> Result:
     start = time.perf_counter()
     try:
-        subject, aside = inputs.get(rule.subject, call.layers, call.without)
-        outcome = replace(outcome, skipped=aside)
-        if len(subject) == 0 and not inputs.examined(rule.subject):
-            return replace(outcome, because="nothing-to-check"), None, []
-        found = rule.check(subject, **tolerances)
-        table = _table(call, inputs, subject, found)
+        outcome, table = _looked(call, outcome, subject, outcomes, rules)
+        trace = ""
+    except MemoryError:
+        outcome, table, trace = _broken(outcome, Broken(Because.LIMIT)), None, ""
     except Exception:  # noqa: BLE001 - whatever a rule does wrong is our fault and must not end the audit
-        seconds = time.perf_counter() - start
-        trace = f"{rule.code} {rule.name} on {drawing.path}\n{traceback.format_exc()}"
-        return replace(outcome, status=Status.CRASHED, because="crashed", seconds=seconds), None, [trace]
-    rows = subject.row[found.row] if len(found) else nothing
-    done = replace(
+        outcome, table = _broken(outcome, Broken(Because.CRASHED)), None
+        trace = f"{outcome.rule} {outcome.name} on {outcome.source}\n{traceback.format_exc()}"
+    return Result(number, replace(outcome, seconds=time.perf_counter() - start), table, trace)
+
+
+def _looked(
+    call: Call, outcome: Outcome, subject: Subject, outcomes: Sequence[Outcome], rules: Mapping[str, Rule]
+) -> tuple[Outcome, Findings | None]:
+    """What the rule finds, or why it cannot look."""
+    if call.rule.metric and (doubt := subject.doubt(outcomes)) is not Because.RAN:
+        return replace(outcome, because=doubt), None
+    outcome = replace(outcome, parameters=call.parameters)
+    seen = judged(call, rules, outcomes, subject)
+    outcome = replace(outcome, unjudged=seen.unjudged, aside=seen.named)
+    empty = not any(len(rows) for rows in seen.inputs) and not subject.examined(call.rule.subject)
+    if empty and not len(seen.unjudged):
+        return replace(outcome, because=Because.NOTHING), None
+    if lack := missing(call, rules, outcomes, subject):
+        return replace(outcome, because=lack.because, names=lack.names), None
+    if empty:
+        return replace(outcome, because=Because.ALL_ASIDE), None
+    found = call.rule.check(*seen.inputs, **call.tolerances)
+    deviations = found if isinstance(found, Deviations) else None
+    hits = found.beyond(_limit(call)) if isinstance(found, Deviations) else found
+    hits = hits.take(_told(hits, seen))
+    rows = seen.inputs[0].row[hits.row]
+    outcome = replace(
         outcome,
-        status=Status.FAULTY if len(found) else Status.CLEAN,
-        checked=_checked(drawing, subject.row, rows),
-        found=len(found),
+        status=Status.FAULTY if len(hits) else Status.CLEAN,
+        checked=subject.counted(seen.inputs[0].row[~seen.aside[0]], rows),
+        found=len(hits),
         faulty=np.unique(rows[rows >= 0]),
-        seconds=time.perf_counter() - start,
+        deviations=deviations,
     )
-    return done, table, []
+    return outcome, findings_of(call, subject, seen.inputs, hits) if len(hits) and not call.spec.helper else None
 
 
-def _checked(drawing: Drawing, rows: Index, faulty: Index) -> int:
-    """Features looked at, the denominator of rates. A point has no topology: it counts only where it is at fault."""
-    rows = rows[rows >= 0]
-    if not len(rows):
-        return 1  # a statement about the file: the file was checked
-    drawn = rows[drawing.items.role[rows] != Role.POINT]
-    return len(np.unique(np.concatenate([drawn, faulty[faulty >= 0]])))
+def _limit(call: Call) -> float:
+    return call.tolerances[call.rule.limit] if call.rule.limit else np.inf
 
 
-def _table(call: _Call, inputs: DrawingInputs, subject: Named, found: Hits) -> Findings | None:
-    if not len(found):
-        return None
-    n = len(found)
-    rule, drawing = call.rule, inputs.drawing
-    if hasattr(subject, "geometry"):
-        sheet = _with_depth(found, subject)
-        where = _lift(sheet, inputs)
-    else:  # a statement about the file has its place in the coordinates of the file
-        where, sheet = found.where, inputs.on_sheet(found.where)
-    item = subject.item[found.row]
-    other = np.array([subject.item[row] if row != NOBODY else "" for row in found.other], dtype=object)
-    layer = subject.layer[found.row]
-    limit = call.tolerances[rule.limit] if rule.limit else math.nan
-    return Findings(
-        key=finding_keys(rule.code, layer, item, other, _places(where, inputs.metres), _KEY_GRID),
-        rule=_same(rule.code, n),
-        name=_same(rule.name, n),
-        # A rule in preview is reported and cannot reject, whatever the profile says.
-        severity=_same(Severity.NOTE.value if rule.preview else call.spec.severity.value, n),
-        source=_same(drawing.path, n),
-        layer=layer,
-        item=item,
-        handle=subject.handle[found.row],
-        inserts=subject.inserts[found.row],
-        other=other,
-        where=where,
-        sheet=sheet,
-        size=found.size,
-        unit=_same(rule.size_unit, n),
-        limit=np.full(n, limit),
-        waived=np.zeros(n, dtype=bool),
+def _told(found: Hits, seen: Judged) -> np.ndarray:
+    """(k,) hits between items that are judged."""
+    told = ~seen.aside[0][found.row]
+    named = np.flatnonzero(found.other != NOBODY)
+    told[named] &= ~seen.aside[-1][found.other[named]]
+    return told
+
+
+def _joined(results: Sequence[Result]) -> Checked:
+    outcomes = sorted((result.outcome for result in results), key=lambda outcome: (outcome.rule, outcome.scope))
+    return Checked(
+        outcomes=tuple(outcomes),
+        findings=join_findings([result.findings for result in results if result.findings is not None]),
+        log=tuple(dict.fromkeys(result.trace for result in results if result.trace)),
     )
-
-
-def _same(value: str, n: int) -> Texts:
-    return np.full(n, value, dtype=object)
-
-
-def _with_depth(found: Hits, subject: Named) -> Geometries:
-    """Places with the depth of the item they lie on, where the drawing has depth and the kernel gave none."""
-    geometry = getattr(subject, "geometry", None)
-    if geometry is None:
-        return found.where
-    on = geometry[found.row]
-    flat = shapely.has_z(on) & ~shapely.has_z(found.where) & ~shapely.is_empty(found.where)
-    if not flat.any():
-        return found.where
-    places = found.where.copy()
-    for n in np.flatnonzero(flat):
-        at = shapely.line_interpolate_point(on[n], shapely.line_locate_point(on[n], places[n].representative_point()))
-        depth = shapely.get_z(at) if at is not None else math.nan
-        places[n] = shapely.force_3d(places[n], 0.0 if math.isnan(depth) else depth)
-    return places
-
-
-def _lift(places: Geometries, inputs: DrawingInputs) -> Geometries:
-    """Places on the sheet back to coordinates of the file."""
-    coordinates = shapely.get_coordinates(places, include_z=True)
-    coordinates[:, 2] = np.nan_to_num(coordinates[:, 2])
-    lifted: Geometries = shapely.set_coordinates(
-        shapely.force_3d(places.copy()), inputs.drawing.plane.lift(coordinates, inputs.metres)
-    )
-    return lifted
-
-
-def _places(where: Geometries, metres: float) -> Reals:
-    """(n, 3) one place for each finding, metres in the coordinates of the file; NaN where it has none."""
-    places = np.full((len(where), 3), np.nan)
-    placed = ~shapely.is_empty(where)
-    places[placed, :2] = shapely.get_coordinates(shapely.centroid(shapely.force_2d(where[placed])))
-    places[:, 2] = _middle_depth(where)
-    return places * metres
-
-
-def _middle_depth(where: Geometries) -> Reals:
-    coordinates, index = shapely.get_coordinates(where, include_z=True, return_index=True)
-    vertices = np.bincount(index, minlength=len(where))
-    total = np.bincount(index, weights=np.nan_to_num(coordinates[:, 2]), minlength=len(where))
-    depth: Reals = np.divide(total, vertices, out=np.full(len(where), np.nan), where=vertices > 0)
-    return depth

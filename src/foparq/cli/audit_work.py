@@ -21,4 +21,4 @@ def audit_work(say: Words, *, asked: str | None, delivery: Path, out: Path | Non
         done = audit(delivery, language=asked, otherwise=say.language, progress=progress)
         written = write_reports(done.record, done.log, folder, progress)
     show(done.record, form, say, written)
-    return int(exit_of(done.record))
+    return int(exit_of(done.record.quality))

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from foparq.audit import check_files
 from foparq.check.catalogue import cards, find_card
+from foparq.check.registry import required_by
 from foparq.cli.common import progress_on_stderr
 from foparq.cli.exit_of import exit_of
 from foparq.cli.show import show
@@ -25,7 +26,7 @@ def check_work(
 ) -> int:  # fmt: skip
     """Check loose drawings, tell what was found; returns the exit code."""
     chosen = _profile(profile, select, ignore, settings)
-    if not chosen.checks:
+    if all(spec.helper for spec in chosen.checks):
         raise UsageError("usage.no-rules", example="--select TOP")
     stated = scale or chosen.scale
     if stated is None:
@@ -45,14 +46,15 @@ def check_work(
     show(done.record, form, say, written)
     if out is None:
         sys.stderr.writelines(f"{trace}\n" for trace in done.log)
-    return int(exit_of(done.record))
+    return int(exit_of(done.record.quality))
 
 
 def _profile(name: str, select: Sequence[str], ignore: Sequence[str], settings: Sequence[str]) -> Profile:
     profile = load_profile(name, Path())
     if select or ignore:
         wanted = _names(select) if select else {card.name for card in cards()}
-        profile = choose(profile, sorted(wanted - _names(ignore)))
+        chosen = sorted(wanted - _names(ignore))
+        profile = choose(profile, chosen, required_by(chosen))
     return with_settings(profile, settings)
 
 

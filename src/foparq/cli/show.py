@@ -11,17 +11,17 @@ from typing import Any
 import click
 import numpy as np
 
-from foparq.cli.exit_of import looked_at_everything
-from foparq.evaluate.quality import Element
+from foparq.evaluate.quality import Element, Verdict
 from foparq.findings.table import Severity
 from foparq.model.delivery import LOST, SourceStatus
 from foparq.report.audit_json import audit_json, findings_csv, findings_jsonl, findings_rows
 from foparq.report.record import AuditRecord
-from foparq.report.sentences import outcome_because, reason_sentence, source_sentence
+from foparq.report.sentences import aside_sentence, outcome_because, reason_sentence, source_sentence
 from foparq.report.words import Words, printable
 
 _SHOWN = 10  #: findings of one kind that the text names
 _WIDTH = 100
+_LOOSE = {Verdict.ACCEPTED: "clean", Verdict.REJECTED: "faults", Verdict.UNDECIDED: "incomplete"}
 
 
 def show(record: AuditRecord, form: str, say: Words, written: Sequence[Path]) -> None:
@@ -68,9 +68,11 @@ def _text(record: AuditRecord, say: Words, written: Sequence[Path]) -> None:
         else None
     )
     click.echo(_styled(_headline(record, say), bold=True, fg=colour))
+    # Of loose files the headline tells the first reason itself: faults, or none.
+    above = record.loose and record.quality.verdict is not Verdict.UNDECIDED
+    for reason in record.quality.why[1 if above else 0 :]:
+        click.echo(f"  - {reason_sentence(say, reason)}")
     if not record.loose:
-        for reason in record.quality.why:
-            click.echo(f"  - {reason_sentence(say, reason)}")
         click.echo()
         for element in record.quality.elements:
             _element(element, say)
@@ -85,7 +87,7 @@ def _headline(record: AuditRecord, say: Words) -> str:
     faults = int(np.count_nonzero(record.findings.severity != Severity.NOTE))
     notes = len(record.findings) - faults
     if record.loose:
-        message = "faults" if faults else "clean" if looked_at_everything(record) else "incomplete"
+        message = _LOOSE[record.quality.verdict]
         return say(f"cli.headline.{message}", faults=faults, notes=notes)
     return say(
         f"cli.headline.{record.quality.verdict.value}",
@@ -147,14 +149,21 @@ def _not_checked(record: AuditRecord, say: Words) -> None:
         for source in record.delivery.sources
         if source.status is SourceStatus.UNNAMED
     ]
-    unit = sorted(
+    lines += sorted(
         {
-            (outcome.source, outcome_because(say, outcome))
+            f"{printable(outcome.source)}: {outcome.name}: {outcome_because(say, outcome)}"
             for outcome in record.outcomes
-            if outcome.because not in {"", "nothing-to-check"}
+            if outcome.because.opens and not outcome.helper
         }
     )
-    lines += [f"{printable(source)}: {because}" for source, because in unit]
+    lines += sorted(
+        {
+            f"{printable(outcome.source)}: {aside_sentence(say, one)}"
+            for outcome in record.outcomes
+            for one in outcome.aside
+            if not one.rule
+        }
+    )
     if lines:
         click.echo()
         click.echo(_styled(say("cli.not-checked"), bold=True))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the evaluation looks at, and what of the delivery nobody saw."""
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -9,7 +10,8 @@ from foparq.evaluate.quality import Element, ElementStatus, Reason, because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import LOST, Delivery
-from foparq.model.drawing import Skipped, SkippedReason
+from foparq.model.drawing import Drawing, Skipped, SkippedReason
+from foparq.model.part import Part
 from foparq.profile.schema import ElementSpec
 
 Parameters = tuple[tuple[str, float, str], ...]
@@ -23,10 +25,17 @@ class Evidence:
     outcomes: Sequence[Outcome]
     counts: FeatureCounts | None  #: delivered features; ``None`` if they were not counted
     scale: float | None  #: denominator k of 1:k
+    faults: int = 0  #: findings that are no notes
+    crashed: bool = False  #: something of the program crashed outside the rules
 
     def files(self, role: str) -> str:
         """Paths of the files of one role, as one text."""
         return ", ".join(source.path for source in self.delivery.sources if source.role == role)
+
+    @property
+    def refused(self) -> bool:
+        """Whether a file that was named could not be read."""
+        return any(source.status in LOST for source in self.delivery.sources)
 
     def lost(self, role: str) -> list[str]:
         """Paths of the files of one role that could not be read."""
@@ -118,11 +127,22 @@ def unseen(evidence: Evidence, name: str) -> tuple[Reason, ...]:
             why.append(because("unseen.block", element=name, file=drawing.path, blocks=bombs[:5], n=len(bombs)))
         if repairs := len(drawing.reading.repairs):
             why.append(because("unseen.repaired", element=name, file=drawing.path, n=repairs))
-        if hidden := [part for part in drawing.reading.skipped if _hides(part)]:
-            kinds = sorted({part.thing for part in hidden})
-            n = sum(part.count for part in hidden)
+        if hidden := hidden_parts(drawing):
+            kinds = [kind for kind, _ in hidden]
+            n = sum(count for _, count in hidden)
             why.append(because("unseen.skipped", element=name, file=drawing.path, kinds=kinds[:5], n=n))
     return tuple(why)
+
+
+def hidden_parts(part: Part) -> list[tuple[str, int]]:
+    """Things of a part that no check saw and behind which faults may hide, with their numbers, in order."""
+    if not isinstance(part, Drawing):
+        return []
+    found: Counter[str] = Counter()
+    for skipped in part.reading.skipped:
+        if _hides(skipped):
+            found[skipped.thing] += skipped.count
+    return sorted(found.items())
 
 
 def _hides(part: Skipped) -> bool:

@@ -3,7 +3,8 @@
 
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
 from foparq.evaluate.quality import Element, ElementStatus, because
-from foparq.evaluate.tally import Tally, broken_reasons, iso_counts, judge_nothing, tally
+from foparq.evaluate.tally import Tally, broken_reasons, iso_counts, judge_nothing, tally, unfit_remark
+from foparq.findings.because import Because
 from foparq.profile.schema import ElementSpec
 
 _MEASURE = "foparq:faulty-features"
@@ -59,10 +60,10 @@ def _judge(spec: ElementSpec, evidence: Evidence, found: Tally, limit: float) ->
         "element": name, "faulty": found.faulty, "checked": found.checked, "value": (rate, "1"), "limit": (limit, "1"),
     }  # fmt: skip
     preview = because("checks.preview", element=name, rules=list(found.preview))
-    remarks = (preview,) if found.preview else ()
+    remarks = (*unfit_remark(found, name), *((preview,) if found.preview else ()))
     if free := sum(outcome.found for outcome in evidence.outcomes if outcome.name == "free-end"):
         remarks = (*remarks, because("faulty.free", element=name, n=free))
-    if any(why == "crashed" for why, _ in found.broken):
+    if any(why is Because.CRASHED for why, _ in found.broken):
         return judged(ElementStatus.UNDECIDED, *broken, *remarks)
     if found.faulty / (found.checked + found.unrun) > limit:
         return judged(ElementStatus.FAIL, because("faulty.fail", **fields), *broken, *unseen(evidence, name), *remarks)
@@ -71,7 +72,7 @@ def _judge(spec: ElementSpec, evidence: Evidence, found: Tally, limit: float) ->
         return judged(ElementStatus.NOT_ASSESSED, absent, *broken, *remarks)
     doubts = [*broken, *unseen(evidence, name)]
     if (found.faulty + found.aside) / found.checked > limit:
-        doubts.append(because("faulty.aside", aside=found.aside, **fields))
+        doubts.append(because("faulty.aside", aside=found.aside, items=list(found.unjudged[:10]), **fields))
     if doubts:
         return judged(ElementStatus.UNDECIDED, *doubts, *remarks)
     return judged(ElementStatus.PASS, because("faulty.pass", **fields), *remarks)

@@ -4,7 +4,8 @@
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
 from foparq.evaluate.measures import Measure, measure_counting, measures
 from foparq.evaluate.quality import Element, ElementStatus, because
-from foparq.evaluate.tally import Tally, broken_reasons, iso_counts, judge_nothing, tally
+from foparq.evaluate.tally import Tally, broken_reasons, iso_counts, judge_nothing, tally, unfit_remark
+from foparq.findings.because import Because
 from foparq.profile.schema import ElementSpec
 
 
@@ -70,7 +71,7 @@ def _judge(spec: ElementSpec, evidence: Evidence, found: Tally, value: float, li
         "limit": (limit, unit),
     }  # fmt: skip
     broken, hidden = broken_reasons(found, spec.id), unseen(evidence, spec.id)
-    if any(why == "crashed" for why, _ in found.broken):
+    if any(why is Because.CRASHED for why, _ in found.broken):
         return judged(ElementStatus.UNDECIDED, *broken)
     sure = value if unit == "items" else found.found / (found.checked + found.unrun)
     if sure > limit:
@@ -80,7 +81,7 @@ def _judge(spec: ElementSpec, evidence: Evidence, found: Tally, value: float, li
         return judged(ElementStatus.NOT_ASSESSED, absent, *broken)
     doubts = [*broken, *hidden]
     if found.aside and value + (found.aside if unit == "items" else found.aside / found.checked) > limit:
-        doubts.append(because("found.aside", aside=found.aside, **fields))
+        doubts.append(because("found.aside", aside=found.aside, items=list(found.unjudged[:10]), **fields))
     if doubts:
         return judged(ElementStatus.UNDECIDED, *doubts)
-    return judged(ElementStatus.PASS, because("found.pass", **fields))
+    return judged(ElementStatus.PASS, because("found.pass", **fields), *unfit_remark(found, spec.id))

@@ -68,8 +68,13 @@ class Element:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class QualityReport:
-    """All elements of one delivery and the verdict."""
+    """All elements of one delivery, or of loose files, and the one conclusion that every report and exit code reads.
+
+    Of loose files ``ACCEPTED`` means that no fault was found and nothing was left unseen, ``REJECTED`` that faults were
+    found; nothing is said of a delivery.
+    """
 
     verdict: Verdict
     why: tuple[Reason, ...]
     elements: tuple[Element, ...]
+    refused: bool = False  #: a file that was named could not be read

@@ -2,7 +2,7 @@
 """Counts over the outcomes of named rules: faulty features, found faults, and out of how many."""
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,17 +11,13 @@ from foparq.columns import Index
 from foparq.evaluate.evidence import Evidence, Judgement, judged, unseen
 from foparq.evaluate.measures import measure_counting
 from foparq.evaluate.quality import ElementStatus, Reason, because
+from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, Status
-from foparq.model.drawing import Drawing
-from foparq.model.items import Role
 from foparq.profile.schema import ElementSpec
 
-#: why a rule did not run, and its sentence
-_BROKEN = {
-    "crashed": "checks.crashed", "unit-unknown": "checks.unit-unknown", "unit-doubtful": "checks.unit-doubtful",
-    "plane-doubtful": "checks.plane-doubtful",
-}  # fmt: skip
-NOTHING = "nothing-to-check"  #: the rule has nothing to look at: no fault can hide there
+#: reasons that speak of a whole file
+OF_FILES = frozenset({Because.UNIT_UNKNOWN, Because.UNIT_DOUBTFUL, Because.PLANE_DOUBTFUL})
+_ITEMS = 10  #: items that a reason names
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,13 +26,15 @@ class Tally:
 
     checked: int  #: features: of each drawing, the most that one of the rules looked at or set aside
     faulty: int  #: distinct features at fault
-    aside: int  #: at most so many features were set aside for faults that the named rules do not count
+    aside: int  #: features that one of the rules did not judge, and none of them found at fault
     found: int  #: faults
     unrun: int  #: features of drawings on which none of the rules ran
     rules: tuple[tuple[str, float, float], ...]  #: name, faults, features checked
     absent: tuple[str, ...]  #: named rules that were not part of the audit
     preview: tuple[str, ...]  #: named rules that found something and may not reject yet
-    broken: tuple[tuple[str, tuple[str, ...]], ...]  #: why rules did not run, and the drawings
+    broken: tuple[tuple[Because, tuple[str, ...]], ...]  #: why rules did not run, and where: files, or rules with files
+    unjudged: tuple[str, ...]  #: items that were set aside: ``"2A (PAREDE)"``
+    unfit: tuple[str, ...]  #: those of them that no rule found at fault
 
 
 def tally(evidence: Evidence, names: Sequence[str]) -> Tally:
@@ -55,17 +53,15 @@ def tally(evidence: Evidence, names: Sequence[str]) -> Tally:
     -------
     Tally
     """
-    named = [outcome for outcome in evidence.outcomes if outcome.name in names]
+    named = [outcome for outcome in evidence.outcomes if outcome.name in names and not outcome.helper]
     counted = [outcome for outcome in named if not outcome.preview]
     sources = sorted({outcome.source for outcome in evidence.outcomes})
-    sizes = {drawing.path: _features(drawing) for drawing in evidence.delivery.drawings}
-    parts = [_of_drawing(evidence, source, counted, sizes.get(source)) for source in sources]
-    broken: dict[str, set[str]] = defaultdict(set)
+    sizes = {part.path: part.features for part in evidence.delivery.parts}
+    parts = [_of_part(source, counted, sizes.get(source)) for source in sources]
+    broken: dict[Because, set[str]] = defaultdict(set)
     for outcome in counted:
-        if outcome.status is Status.CRASHED:
-            broken["crashed"].add(f"{outcome.name} ({outcome.source})")
-        elif outcome.status is Status.NOT_RUN and outcome.because != NOTHING:
-            broken[outcome.because].add(outcome.source)
+        if outcome.because.opens:
+            broken[outcome.because].add(where_broken(outcome))
     return Tally(
         checked=sum(part.checked for part in parts),
         faulty=sum(part.faulty for part in parts),
@@ -76,13 +72,39 @@ def tally(evidence: Evidence, names: Sequence[str]) -> Tally:
         absent=tuple(name for name in names if not any(outcome.name == name for outcome in named)),
         preview=tuple(name for name in names if any(o.name == name and o.preview and o.found for o in named)),
         broken=tuple((why, tuple(sorted(broken[why]))) for why in sorted(broken)),
+        unjudged=_items(counted, unfit=False),
+        unfit=_items(counted, unfit=True),
+    )
+
+
+def where_broken(outcome: Outcome) -> str:
+    """What a reason names: the file, and the rule where it is the rule's own matter."""
+    if outcome.because in OF_FILES:
+        return outcome.source
+    required = f" ({', '.join(outcome.names)})" if outcome.names else ""
+    return f"{outcome.name}{required} · {outcome.source}"
+
+
+def _items(outcomes: Sequence[Outcome], *, unfit: bool) -> tuple[str, ...]:
+    """Items that were set aside, with their layers; of those that rules name."""
+    return tuple(
+        dict.fromkeys(
+            f"{one.item} ({one.layer})" for outcome in outcomes for one in outcome.aside if not (unfit and one.rule)
+        )
     )
 
 
 def broken_reasons(found: Tally, name: str) -> tuple[Reason, ...]:
     """Why rules did not run, as reasons; crashes first."""
-    rows = sorted(found.broken, key=lambda row: row[0] != "crashed")
-    return tuple(because(_BROKEN.get(why, "checks.not-run"), element=name, files=list(files)) for why, files in rows)
+    rows = sorted(found.broken, key=lambda row: row[0] is not Because.CRASHED)
+    return tuple(because(f"checks.{reason}", element=name, files=list(files)) for reason, files in rows)
+
+
+def unfit_remark(found: Tally, name: str) -> tuple[Reason, ...]:
+    """Items that the rules could not work with and nobody found at fault, as a remark."""
+    if not found.unfit:
+        return ()
+    return (because("checks.unfit", element=name, items=list(found.unfit[:_ITEMS]), n=len(found.unfit)),)
 
 
 def judge_nothing(spec: ElementSpec, evidence: Evidence, found: Tally) -> Judgement:
@@ -116,37 +138,25 @@ class _Part:
     unrun: int
 
 
-def _of_drawing(evidence: Evidence, source: str, counted: Sequence[Outcome], size: int | None) -> _Part:
+def _of_part(source: str, counted: Sequence[Outcome], size: int | None) -> _Part:
     here = [outcome for outcome in counted if outcome.source == source]
     seen: dict[str, int] = defaultdict(int)
-    aside: dict[str, int] = defaultdict(int)
     for outcome in here:
         seen[outcome.name] += outcome.checked + outcome.skipped
-        aside[outcome.name] += outcome.skipped
-    rows = _rows(here)
+    rows = _distinct(outcome.faulty for outcome in here)
     checked = max(seen.values(), default=0)
     checked = max(len(rows), checked if size is None else min(checked, size))
-    most = max(aside.values(), default=0)
-    any_fault = _rows([outcome for outcome in evidence.outcomes if outcome.source == source])
-    others = len(np.setdiff1d(any_fault, rows, assume_unique=True))
-    # Features set aside were found faulty by a rule that is required, or cannot be held by the input.
-    uncounted = min(max(min(most, others), most - len(rows)), checked - len(rows))
+    unjudged = np.setdiff1d(_distinct(outcome.unjudged for outcome in here), rows, assume_unique=True)
     ran = any(outcome.status in {Status.CLEAN, Status.FAULTY} for outcome in here)
-    idle = all(outcome.because == NOTHING for outcome in here)
-    return _Part(checked, len(rows), uncounted, 0 if ran or idle else max(0, (size or 0) - checked))
+    idle = all(outcome.because is Because.NOTHING for outcome in here)
+    return _Part(checked, len(rows), len(unjudged), 0 if ran or idle else max(0, (size or 0) - checked))
 
 
-def _rows(outcomes: Sequence[Outcome]) -> Index:
-    """(k,) distinct rows of a drawing at fault by any of the outcomes."""
-    rows = np.unique(np.concatenate([np.empty(0, dtype=np.intp), *(outcome.faulty for outcome in outcomes)]))
-    at_fault: Index = rows[rows >= 0]
-    return at_fault
-
-
-def _features(drawing: Drawing) -> int:
-    """Items of a drawing that rules may look at."""
-    items = drawing.items
-    return int(np.count_nonzero(~items.paper & np.isin(items.role, [Role.LINE, Role.AREA, Role.POINT])))
+def _distinct(columns: Iterable[Index]) -> Index:
+    """(k,) distinct rows of a part's items."""
+    rows = np.unique(np.concatenate([np.empty(0, dtype=np.intp), *columns]))
+    items: Index = rows[rows >= 0]
+    return items
 
 
 def _rule(name: str, counted: Sequence[Outcome], sizes: Mapping[str, int]) -> tuple[str, float, float]:

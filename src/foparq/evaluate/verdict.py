@@ -15,7 +15,7 @@ _OPEN = set(ElementStatus) - {ElementStatus.PASS, ElementStatus.FAIL}
 _LOST = {SourceStatus.REFUSED: "verdict.refused", SourceStatus.MISSING: "verdict.missing"}
 
 
-def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element], *, crashed: bool) -> QualityReport:
+def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) -> QualityReport:
     """Verdict over all elements, with its reasons, the decisive ones first.
 
     Rejected: a required element fails. Else undecided: a required element is undecided or not assessed, a file that the
@@ -26,8 +26,6 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element], *,
     profile : Profile
     evidence : Evidence
     elements : sequence of Element
-    crashed : bool
-        True if anything of the program crashed.
 
     Returns
     -------
@@ -38,21 +36,25 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element], *,
     failed = [element for element in required if element.status is ElementStatus.FAIL]
     failing = _together(element.why[:1] for element in failed)
     doubts = _together(element.why for element in required if element.status in _OPEN)
-    doubts += _lost(evidence) + _crashes(evidence, crashed=crashed)
+    doubts += lost_files(evidence) + crashes(evidence)
     if not required:
         doubts.append(because("verdict.nothing-required"))
     if failed:
         shift = [because("verdict.shift")] if _shifted(profile, elements) else []
-        return QualityReport(verdict=Verdict.REJECTED, why=(*failing, *shift, *doubts), elements=tuple(elements))
+        return _report(Verdict.REJECTED, (*failing, *shift, *doubts), elements, evidence)
     if doubts:
-        return QualityReport(verdict=Verdict.UNDECIDED, why=tuple(doubts), elements=tuple(elements))
+        return _report(Verdict.UNDECIDED, doubts, elements, evidence)
     why = [because("verdict.accepted", elements=[element.id for element in required])]
     why += _together(element.why[:1] for element in required if _tolerated(element))
     others = [element.id for element in elements if element not in required]
     if others:
         why.append(because("verdict.not-required", elements=others))
     remarks = _together(element.why[1:] for element in required) + _hidden(evidence)
-    return QualityReport(verdict=Verdict.ACCEPTED, why=(*why, *remarks), elements=tuple(elements))
+    return _report(Verdict.ACCEPTED, (*why, *remarks), elements, evidence)
+
+
+def _report(verdict: Verdict, why: Sequence[Reason], elements: Sequence[Element], evidence: Evidence) -> QualityReport:
+    return QualityReport(verdict=verdict, why=tuple(why), elements=tuple(elements), refused=evidence.refused)
 
 
 def _tolerated(element: Element) -> bool:
@@ -110,7 +112,8 @@ def _results(id_: str) -> tuple[str, ...]:
     return (id_, *(f"{id_}-{axis}" for axis in AXES))
 
 
-def _lost(evidence: Evidence) -> list[Reason]:
+def lost_files(evidence: Evidence) -> list[Reason]:
+    """Files that were named and could not be read."""
     return [
         because(message, files=files)
         for status, message in _LOST.items()
@@ -118,8 +121,8 @@ def _lost(evidence: Evidence) -> list[Reason]:
     ]
 
 
-def _crashes(evidence: Evidence, *, crashed: bool) -> list[Reason]:
+def crashes(evidence: Evidence) -> list[Reason]:
+    """What of the program failed: never a fault of the delivery, and nothing can be accepted without it."""
     rules = sorted({f"{o.name} ({o.source})" for o in evidence.outcomes if o.status is Status.CRASHED})
-    if rules:
-        return [because("verdict.crashed-rules", rules=rules)]
-    return [because("verdict.crashed")] if crashed else []
+    why = [because("verdict.crashed-rules", rules=rules)] if rules else []
+    return [*why, because("verdict.crashed")] if evidence.crashed else why

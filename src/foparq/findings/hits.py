@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""What a rule returns: faulty things, as columns."""
+"""What a rule returns: faulty things or measured differences, as columns."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from foparq.columns import Geometries, Index, Reals
+from foparq.columns import Flags, Geometries, Index, Reals
 
 NOBODY = -1  #: in ``Hits.other``: no second item is involved
 
@@ -17,10 +17,37 @@ class Hits:
     row: Index  #: (k,) row in the rule's first input
     where: Geometries  #: (k,) place to look at, in the coordinates of that input; empty if the fault has none
     size: Reals  #: (k,) magnitude, in the unit the rule declares
-    other: Index  #: (k,) row of the second item involved, or ``NOBODY``
+    other: Index  #: (k,) row of the second item involved, in the second input if there is one, or ``NOBODY``
 
     def __len__(self) -> int:
         return len(self.row)
+
+    def take(self, rows: Index | Flags) -> "Hits":
+        """The chosen hits, in that order."""
+        return Hits(row=self.row[rows], where=self.where[rows], size=self.size[rows], other=self.other[rows])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Deviations:
+    """Differences measured at k places, in the order of rows. They are faults where their length exceeds the limit."""
+
+    row: Index  #: (k,) row in the rule's first input
+    where: Geometries  #: (k,) place, in the coordinates of that input
+    delta: Reals  #: (k, d) delivered minus reference, an axis a column, in the unit the rule declares
+    other: Index  #: (k,) row in the second input: the reference
+
+    def __len__(self) -> int:
+        return len(self.row)
+
+    def take(self, rows: Index | Flags) -> "Deviations":
+        """The chosen differences, in that order."""
+        return Deviations(row=self.row[rows], where=self.where[rows], delta=self.delta[rows], other=self.other[rows])
+
+    def beyond(self, limit: float) -> Hits:
+        """Differences longer than ``limit``, as hits."""
+        length = np.sqrt(np.sum(self.delta**2, axis=1))
+        far = length > limit
+        return hits(self.row[far], self.where[far], length[far], self.other[far])
 
 
 def hits(row: Index, where: Geometries, size: Reals, other: Index | None = None) -> Hits:

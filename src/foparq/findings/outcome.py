@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: MIT
 """What one rule found on one scope."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
+import numpy as np
+
 from foparq.columns import Index
+from foparq.findings.because import Because
+from foparq.findings.hits import Deviations
 
 
 class Status(StrEnum):
@@ -17,19 +21,48 @@ class Status(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SetAside:
+    """One item that a rule did not judge. It stays in the drawing: others may meet it."""
+
+    item: str
+    layer: str
+    rule: str  #: name of the required rule that found it at fault; ``""``: the rule cannot work with it
+
+
+def _nothing() -> Index:
+    return np.empty(0, dtype=np.intp)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
     """What one bound rule found on one scope."""
 
     rule: str  #: code, ``"TOP021"``
     name: str  #: ``"undershoot"``
     scope: str  #: ``"fachada.dxf: PAREDE*, PORTA*"``
-    source: str  #: path of the drawing
+    layers: tuple[str, ...] = ("*",)  #: patterns of all inputs
+    source: str  #: path of the part
     status: Status
-    checked: int  #: items looked at: the denominator of every rate
+    checked: int  #: items judged: the denominator of every rate
     found: int  #: hits
-    faulty: Index  #: rows of the drawing's items at fault, distinct
-    skipped: int = 0  #: items set aside because a required rule failed on them
-    because: str = ""  #: id in the ``report`` catalogue under ``because.``
+    faulty: Index  #: rows of the part's items at fault, distinct
+    unjudged: Index = field(default_factory=_nothing)  #: rows of the part's items that were set aside, distinct
+    aside: tuple[SetAside, ...] = ()  #: the first of them, those that the rule cannot work with before others
+    because: Because = Because.RAN
+    names: tuple[str, ...] = ()  #: what ``because`` speaks of: required rules
     parameters: tuple[tuple[str, float, str], ...] = ()  #: name, value, SI unit
     seconds: float = 0.0
+    about_file: bool = False  #: the rule looks at statements of the file, not at items
     preview: bool = False  #: reported, cannot reject
+    helper: bool = False  #: runs only because chosen rules require it: nothing of it is told
+    deviations: Deviations | None = None  #: of a rule that measures
+
+    @property
+    def skipped(self) -> int:
+        """Items that were not judged."""
+        return len(self.unjudged)
+
+    @property
+    def opens(self) -> bool:
+        """Whether faults may hide here that no rule told."""
+        return self.status is Status.CRASHED or self.because.opens or any(not one.rule for one in self.aside)

@@ -5,10 +5,12 @@ import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 
 from foparq.columns import Flags, Geometries, Reals, Texts
+from foparq.geom.packing import pack_geometry, pack_texts, unpack_geometry, unpack_texts
 
 
 class Severity(StrEnum):
@@ -20,7 +22,7 @@ class Severity(StrEnum):
     NOTE = "note"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Findings:
     """Every finding of one audit, n rows, ordered by (source, rule, layer, item, key)."""
 
@@ -34,8 +36,10 @@ class Findings:
     handle: Texts  #: (n,) as written in the file
     inserts: Texts  #: (n,) chain of block inserts
     other: Texts  #: (n,) item id of the second item; ``""`` if none
+    other_layer: Texts  #: (n,) its layer
     where: Geometries  #: (n,) place in the coordinates and units of the file
     sheet: Geometries  #: (n,) the same place in the drawing's plane, metres
+    place: Reals  #: (n, 3) one point to look at, on the fault, in the coordinates of the file; NaN if it has none
     size: Reals  #: (n,) magnitude
     unit: Texts  #: (n,) unit of the magnitude: ``"m"``, ``"m2"``, ``"items"``
     limit: Reals  #: (n,) the tolerance that was exceeded, in the same unit; NaN if none
@@ -44,10 +48,28 @@ class Findings:
     def __len__(self) -> int:
         return len(self.key)
 
+    def __getstate__(self) -> dict[str, Any]:
+        # Findings cross process borders: buffers instead of a million objects.
+        state = {field.name: getattr(self, field.name) for field in fields(self)}
+        for name, column in state.items():
+            if name in _GEOMETRIES:
+                state[name] = pack_geometry(column)
+            elif column.dtype == object:
+                state[name] = pack_texts(column)
+        return state
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for name, column in state.items():
+            unpack = unpack_geometry if name in _GEOMETRIES else unpack_texts if isinstance(column, tuple) else None
+            object.__setattr__(self, name, unpack(column) if unpack else column)
+
 
 def no_findings() -> Findings:
     """Findings of an audit that found nothing."""
-    return Findings(**{field.name: np.empty(0, dtype=_DTYPES.get(field.name, object)) for field in fields(Findings)})
+    columns: dict[str, Any] = {
+        field.name: np.empty(0, dtype=_DTYPES.get(field.name, object)) for field in fields(Findings)
+    }
+    return Findings(**{**columns, "place": np.empty((0, 3))})
 
 
 def join_findings(tables: Sequence[Findings]) -> Findings:
@@ -113,4 +135,5 @@ def finding_keys(rule: str, layer: Texts, item: Texts, other: Texts, places: Rea
 
 
 _BARE = len("TOP021-1a2b3c4d5e")  #: of a key before its number
+_GEOMETRIES = frozenset({"where", "sheet"})
 _DTYPES: dict[str, type] = {"size": float, "limit": float, "waived": bool}

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from foparq.model.drawing import Drawing, Skipped
+from foparq.model.part import Part
 from foparq.model.tables import Checkpoints, Distances, FeatureList
 
 
@@ -43,7 +44,12 @@ class Delivery:
 
     title: str
     sources: tuple[Source, ...]
-    drawings: tuple[Drawing, ...] = ()
+    parts: tuple[Part, ...] = ()
     checkpoints: Checkpoints | None = None
     distances: Distances | None = None
     features: FeatureList | None = None
+
+    @property
+    def drawings(self) -> tuple[Drawing, ...]:
+        """The parts that are drawings."""
+        return tuple(part for part in self.parts if isinstance(part, Drawing))

@@ -4,8 +4,12 @@
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+import numpy as np
+import shapely
+
 from foparq.columns import Flags, Geometries, Reals, Texts
-from foparq.model.items import Items
+from foparq.model.items import Items, Role
+from foparq.model.part import Part
 from foparq.model.plane import Plane
 
 
@@ -158,11 +162,10 @@ class Reading:
     crs: str = ""  #: coordinate reference system, ``"EPSG:31982"``
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Drawing:
+@dataclass(frozen=True, kw_only=True)
+class Drawing(Part):
     """One drawing as delivered, with what the manifest says of it."""
 
-    path: str  #: relative to the delivery, with ``/``
     items: Items
     reading: Reading
     unit: DrawingUnit
@@ -170,6 +173,17 @@ class Drawing:
     facade: str = ""
     classes: dict[str, str] = field(default_factory=dict)  #: layer pattern to feature class
     areas: tuple[str, ...] = ()  #: patterns of the layers whose closed lines bound areas of a coverage
+
+    @property
+    def features(self) -> int:
+        """Items that rules may look at."""
+        items = self.items
+        return int(np.count_nonzero(~items.paper & np.isin(items.role, [Role.LINE, Role.AREA, Role.POINT])))
+
+    @property
+    def vertices(self) -> int:
+        """Vertices of all items."""
+        return int(shapely.get_num_coordinates(self.items.geometry).sum())
 
     def visible_rows(self) -> Flags:
         """(n,) true for what a person sees in model space."""

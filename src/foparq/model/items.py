@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foparq.columns import Flags, Geometries, Index, Integers, Texts
-from foparq.model.packing import pack_geometry, pack_texts, unpack_geometry, unpack_texts
+from foparq.geom.packing import pack_geometry, pack_texts, unpack_geometry, unpack_texts
 
 INSERT_END, FIELD_END = "\x1e", "\x1f"  #: end one insert, and one word on it, in ``Items.holders``
 

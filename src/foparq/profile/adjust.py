@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Profiles changed for one run: rules chosen, tolerances set."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from pydantic import ValidationError
 
@@ -12,10 +12,23 @@ from foparq.units import parse_any_quantity
 _EXAMPLE = "undershoot.reach=10mm"
 
 
-def choose(profile: Profile, names: Sequence[str]) -> Profile:
-    """Profile that runs only the named rules, with the elements that need no other."""
+def choose(profile: Profile, names: Collection[str], helpers: Collection[str] = ()) -> Profile:
+    """Profile that runs only the named rules, with the elements that need no other.
+
+    Parameters
+    ----------
+    profile : Profile
+    names : collection of str
+        Rules whose findings are told.
+    helpers : collection of str
+        Rules that those require: they run in silence, so that what they find at fault is not judged twice.
+    """
     kept = set(names)
-    checks = tuple(spec for spec in profile.checks if spec.rule in kept)
+    checks = tuple(
+        spec.model_copy(update={"helper": spec.rule not in kept})
+        for spec in profile.checks
+        if spec.rule in kept or spec.rule in helpers
+    )
     elements = tuple(spec for spec in profile.elements if set(spec.rules) <= kept)
     return profile.model_copy(update={"checks": checks, "elements": elements})
 

@@ -14,7 +14,7 @@ from foparq.profile.schema import CheckSpec, ElementSpec, Profile
 from foparq.profile.toml_text import TomlText, read_toml
 from foparq.resources import shipped
 
-_CHECK_KEYS = {"rule", "severity", "layers", "apart"}
+_CHECK_KEYS = {"rule", "severity", "layers", "on", "apart"}
 _TOP_KEYS = {
     "name",
     "extends",
@@ -41,6 +41,7 @@ _EXAMPLES = {
     "kind": 'kind = "omission"',
     "language": 'language = "pt-BR"',
     "layers": 'layers = ["PAREDE*"]',
+    "on": 'on = { reference = ["EIXO*"] }',
     "limit": 'limit = "5 %"',
     "path": 'path = "fachada.dxf"',
     "plane": 'plane = "xz"',

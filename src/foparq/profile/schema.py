@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The product specification, typed: which rules on which layers with which tolerances, and which limits."""
 
+from collections.abc import Mapping
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
@@ -35,7 +36,9 @@ class CheckSpec(Strict):
     rule: str  #: name
     severity: Severity
     layers: tuple[str, ...] = ("*",)  #: patterns; the layers that match are checked together
+    on: Mapping[str, tuple[str, ...]] = Field(default_factory=dict)  #: of single inputs of a rule that takes several
     apart: bool = False  #: check every layer by itself
+    helper: bool = False  #: runs only because chosen rules require it: nothing of it is told
     tolerances: dict[str, AnyQuantity] = Field(default_factory=dict)
     file: str = ""  #: where the profile says so
     line: int = 0
@@ -63,6 +66,9 @@ class LimitsSpec(Strict):
     bytes: int = 1_000_000_000  #: size of one file
     seconds: int = 600  #: reading one file
     memory: int = 2_000_000_000  #: bytes beyond the start, reading one file
+    check_seconds: int = 12  #: processor time of all rules on one part; one rule may use a third of it
+    check_seconds_per_million: int = 40  #: and so much more for each million vertices
+    check_memory: int = 2_000_000_000  #: bytes beyond the start, rules on one part
     written: int = 100_000  #: findings written, per rule; counting is never capped
 
 

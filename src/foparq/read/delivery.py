@@ -104,7 +104,7 @@ def read_delivery(
     _unnamed(intake, root)
     delivery = Delivery(
         title=manifest.delivery.title or root.resolve().name, sources=tuple(intake.sources),
-        drawings=tuple(intake.drawings), checkpoints=checkpoints, distances=distances, features=features,
+        parts=tuple(intake.drawings), checkpoints=checkpoints, distances=distances, features=features,
     )  # fmt: skip
     return delivery, tuple(intake.crashes)
 
@@ -143,7 +143,7 @@ def read_loose(
     for path in paths:
         section = DrawingSection.model_validate({"path": path.as_posix(), "unit": unit, "plane": plane, "areas": areas})
         _drawing(intake, section, path.as_posix(), path.resolve)
-    return Delivery(title="", sources=tuple(intake.sources), drawings=tuple(intake.drawings)), tuple(intake.crashes)
+    return Delivery(title="", sources=tuple(intake.sources), parts=tuple(intake.drawings)), tuple(intake.crashes)
 
 
 def read_drawing(path: Path, section: DrawingSection, profile: Profile, sagitta: float) -> RawDrawing:

@@ -14,7 +14,7 @@ import numpy as np
 
 from foparq import __version__
 from foparq.columns import Index
-from foparq.evaluate.quality import Element, Reason
+from foparq.evaluate.quality import Element, Reason, Verdict
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import Source
 from foparq.report.places import places
@@ -23,6 +23,8 @@ from foparq.report.sentences import finding_sentence, reason_sentence, source_se
 from foparq.report.words import Words
 
 SCHEMA = "foparq-audit/1"
+#: of deliveries and of loose files alike
+_CONCLUSIONS = {Verdict.ACCEPTED: "clean", Verdict.REJECTED: "faulty", Verdict.UNDECIDED: "open"}
 
 #: columns of ``findings.jsonl`` and of the CSV, in order
 COLUMNS = (
@@ -51,6 +53,7 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         "title": record.delivery.title,
         "language": record.language,
         "verdict": None if record.loose else record.quality.verdict.value,
+        "conclusion": _CONCLUSIONS[record.quality.verdict],
         "why": [_reason(words, reason) for reason in record.quality.why],
         "profile": {"name": record.profile, "sha256": record.profile_sha256},
         "product_class": record.product_class,
@@ -210,7 +213,10 @@ def _outcome(outcome: Outcome) -> dict[str, Any]:
         "checked": outcome.checked,
         "found": outcome.found,
         "skipped": outcome.skipped,
-        "because": outcome.because,
+        "set_aside": [{"item": one.item, "layer": one.layer, "rule": one.rule} for one in outcome.aside],
+        "because": outcome.because.value,
+        "requires": list(outcome.names),
+        "helper": outcome.helper,
         "parameters": _parameters(outcome.parameters),
         "seconds": round(outcome.seconds, 3),
         "preview": outcome.preview,

@@ -6,7 +6,8 @@ from functools import cache
 
 from foparq.check.catalogue import cards
 from foparq.evaluate.quality import Reason
-from foparq.findings.outcome import Outcome
+from foparq.findings.because import Because
+from foparq.findings.outcome import Outcome, SetAside
 from foparq.findings.table import Findings
 from foparq.model.delivery import Source
 from foparq.model.drawing import Skipped
@@ -83,7 +84,15 @@ def skipped_sentence(words: Words, skipped: Skipped) -> str:
 
 def outcome_because(words: Words, outcome: Outcome) -> str:
     """Why a rule did not run, ``report.because.ID``; empty if it ran."""
-    return words(f"report.because.{outcome.because}", rule=outcome.name) if outcome.because else ""
+    if outcome.because is Because.RAN:
+        return ""
+    return words(f"report.because.{outcome.because}", rule=outcome.name, names=list(outcome.names))
+
+
+def aside_sentence(words: Words, aside: SetAside) -> str:
+    """An item that a rule did not judge, and why: ``"2A (PAREDE): at fault by zero-length"``."""
+    why = words("report.aside.rule", rule=aside.rule) if aside.rule else words("report.aside.unfit")
+    return f"{printable(aside.item)} ({printable(aside.layer)}): {why}"
 
 
 def outcome_scope(words: Words, outcome: Outcome) -> str:

@@ -17,7 +17,6 @@ from foparq.report.words import Words, printable
 #: an element that leaves the question open
 OPEN = frozenset({ElementStatus.UNDECIDED, ElementStatus.NOT_ASSESSED})
 TAKEN_IN = frozenset({SourceStatus.READ, SourceStatus.RECOVERED})
-_UNJUDGED = frozenset({Status.NOT_RUN, Status.CRASHED})
 _COUNTED = frozenset({"drawing", "checkpoints", "distances", "features"})  #: roles whose items or rows are told
 _FIRST = 3  #: kinds of fault that the headline names
 _FILES_NAMED = 3
@@ -87,7 +86,7 @@ def headline(words: Words, record: AuditRecord, groups: Sequence[Group], suffix:
         mark=mark,
         sentence=sentence,
         title=title(words, record),
-        why=() if record.loose else tuple(reason_sentence(words, reason) for reason in record.quality.why),
+        why=tuple(reason_sentence(words, reason) for reason in record.quality.why[_told_above(record) :]),
         gaps=_gaps(words, record),
         causes=tuple(
             Cause(
@@ -100,6 +99,11 @@ def headline(words: Words, record: AuditRecord, groups: Sequence[Group], suffix:
         ),
         facts=_facts(words, record),
     )
+
+
+def _told_above(record: AuditRecord) -> int:
+    """Of loose files the headline tells the first reason itself: faults, or none."""
+    return int(record.loose and record.quality.verdict is not Verdict.UNDECIDED)
 
 
 def title(words: Words, record: AuditRecord) -> str:
@@ -120,13 +124,14 @@ def _judged(words: Words, record: AuditRecord) -> tuple[str, str]:
 
 
 def _loose(words: Words, record: AuditRecord, faults: Sequence[Group]) -> tuple[str, str]:
-    ran = any(outcome.status in {Status.CLEAN, Status.FAULTY} for outcome in record.outcomes)
-    total = sum(group.found for group in faults)
-    if total:
+    verdict = record.quality.verdict
+    if verdict is Verdict.REJECTED:
+        total = sum(group.found for group in faults)
         return "faulty", words(f"report.headline.loose-{'one' if total == 1 else 'many'}", count=words.count(total))
-    if not ran:
-        return Verdict.UNDECIDED.value, words("report.headline.loose-nothing")
-    return "clean", words("report.headline.loose-none")
+    if verdict is Verdict.ACCEPTED:
+        return "clean", words("report.headline.loose-none")
+    ran = any(outcome.status in {Status.CLEAN, Status.FAULTY} for outcome in record.outcomes)
+    return verdict.value, words(f"report.headline.loose-{'open' if ran else 'nothing'}")
 
 
 def _gaps(words: Words, record: AuditRecord) -> tuple[str, ...]:
@@ -135,9 +140,7 @@ def _gaps(words: Words, record: AuditRecord) -> tuple[str, ...]:
         # Loose files are not asked for what only a delivery holds.
         "elements": 0 if record.loose else sum(element.status in OPEN for element in record.quality.elements),
         # A rule that had nothing to look at left nothing unjudged.
-        "rules": len(
-            {run.rule for run in record.outcomes if run.status in _UNJUDGED and run.because != "nothing-to-check"}
-        ),
+        "rules": len({run.rule for run in record.outcomes if run.because.opens}),
         "things": sum(part.count for source in record.delivery.sources for part in source.skipped),
     }
     return tuple(

@@ -8,7 +8,7 @@ from foparq.model.inputs import Areas
 from foparq.units import SquareMetres
 
 
-@rule("TOP031", "area-overlap", size="m2", limit="least", measures=("11",), requires=("GEO001",))
+@rule("TOP031", "area-overlap", size="m2", limit="least", measures=("11",), requires=("GEO001", "GEO004"))
 def area_overlap(areas: Areas, *, least: SquareMetres) -> Hits:
     """Two areas that cover the same place.
 

@@ -11,7 +11,7 @@ from foparq.model.inputs import Lines
 from foparq.units import Metres
 
 
-@rule("TOP001", "duplicate", limit="coincide", measures=("4",), requires=("GEO001", "GEO002"))
+@rule("TOP001", "duplicate", limit="coincide", measures=("4",), requires=("GEO001", "GEO002"), repeats=True)
 def duplicate(lines: Lines, *, coincide: Metres) -> Hits:
     """Line drawn more than once.
 

@@ -8,7 +8,7 @@ from foparq.model.inputs import Areas
 from foparq.units import Metres, SquareMetres
 
 
-@rule("TOP032", "gap", size="m2", limit="most", requires=("GEO001",))
+@rule("TOP032", "gap", size="m2", limit="most", requires=("GEO001", "GEO004"))
 def gap(areas: Areas, *, coincide: Metres, most: SquareMetres) -> Hits:
     """Place between areas that none of them covers.
 

@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from foparq.check.inputs import all_layers, matches
+from foparq.check.drawn.facts import all_layers
+from foparq.check.layers import matches
 from foparq.columns import Geometries, Index
 from foparq.findings.counts import FeatureCounts
 from foparq.geom.clusters import clusters

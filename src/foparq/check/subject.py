@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: MIT
+"""One part of a delivery as the rules see it: all that the engine knows of drawings, meshes and cameras."""
+
+import importlib
+import pkgutil
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from functools import cache, cached_property
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+
+import foparq.check.subjects
+from foparq.columns import Geometries, Index, Reals, Texts
+from foparq.findings.because import Because
+from foparq.findings.hits import Hits
+from foparq.findings.outcome import Outcome
+from foparq.model.inputs import Named
+from foparq.model.part import Part
+from foparq.profile.schema import Profile
+
+Patterns = tuple[str, ...]  #: of layers
+
+
+class Taken(NamedTuple):
+    """Input of one kind on some layers."""
+
+    rows: Named
+    unfit: Index  #: rows of the part's items that are of the kind, and that the input cannot hold
+
+
+class Places(NamedTuple):
+    """Where k findings lie."""
+
+    where: Geometries  #: (k,) in the coordinates of the file
+    sheet: Geometries  #: (k,) in the plane of the part, metres; the same where there is none
+    point: Reals  #: (k, 3) one point on each, in the coordinates of the file; NaN if it has none
+
+
+class Subject(ABC):
+    """One part as the rules see it. Columns are built once, when a rule first asks."""
+
+    #: names of rules whose outcome :meth:`doubt` reads: they run first
+    leading: tuple[str, ...] = ()
+
+    @property
+    @abstractmethod
+    def part(self) -> Part:
+        """The part."""
+
+    @property
+    @abstractmethod
+    def metres(self) -> float:
+        """Metres in one unit of the file."""
+
+    @abstractmethod
+    def knows(self, kind: type) -> bool:
+        """Whether parts of this kind have such an input at all; rules on others do not concern them."""
+
+    @abstractmethod
+    def take(self, kind: type, layers: Patterns) -> Taken:
+        """Input of one kind on some layers."""
+
+    def without(self, kind: type, layers: Patterns, rows: Index) -> Named:
+        """The same input less some rows of the part's items; made once, so that rules share what kernels compute."""
+        whole = self.take(kind, layers).rows
+        kept = ~np.isin(whole.row, rows)
+        if kept.all():
+            return whole
+        key = (kind, layers, rows.tobytes())
+        if key not in self._reduced:
+            self._reduced[key] = whole.take(kept)
+        return self._reduced[key]
+
+    @cached_property
+    def _reduced(self) -> dict[tuple[type, Patterns, bytes], Named]:
+        return {}
+
+    @abstractmethod
+    def alone(self, kind: type, layers: Patterns) -> Sequence[Patterns]:
+        """Layers that hold anything of a kind, each by itself."""
+
+    @abstractmethod
+    def states(self, kind: type) -> bool:
+        """Whether an input holds statements of the file, about no item."""
+
+    @abstractmethod
+    def examined(self, kind: type) -> bool:
+        """Whether an empty input means that the file was looked at and nothing was there to report."""
+
+    @abstractmethod
+    def doubt(self, outcomes: Sequence[Outcome]) -> Because:
+        """Why tolerances in metres mean nothing on this part; ``Because.RAN`` if they do."""
+
+    @abstractmethod
+    def counted(self, rows: Index, faulty: Index) -> int:
+        """Features among the judged rows of the part's items: the denominator of rates."""
+
+    @abstractmethod
+    def named(self, rows: Index) -> tuple[Texts, Texts]:
+        """Item ids and layers of rows of the part's items."""
+
+    @abstractmethod
+    def places(self, found: Hits, rows: Named) -> Places:
+        """Where the hits of a rule on an input lie."""
+
+
+Build = Callable[[Part, Profile], Subject]
+S = TypeVar("S", bound=type[Subject])
+
+#: type of a part, and what makes a subject of it
+SUBJECTS: dict[type[Part], Build] = {}
+
+
+def subject(kind: type[Part]) -> Callable[[S], S]:
+    """Declare the subject of a kind of part: a class that is made from the part and the profile."""
+
+    def declare(made: S) -> S:
+        SUBJECTS[kind] = made
+        return made
+
+    return declare
+
+
+def subject_of(part: Part, profile: Profile) -> Subject:
+    """A part as the rules see it.
+
+    Raises
+    ------
+    KeyError
+        If nobody declared a subject for its kind.
+    """
+    _load()
+    return SUBJECTS[type(part)](part, profile)
+
+
+@cache
+def _load() -> None:
+    """Import every module of ``check.subjects``: each declares its subject."""
+    for module in pkgutil.walk_packages(foparq.check.subjects.__path__, "foparq.check.subjects."):
+        importlib.import_module(module.name)

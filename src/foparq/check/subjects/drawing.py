@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: MIT
+"""A drawing as the rules see it."""
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+import shapely
+
+from foparq.check.drawn.columns import Columns
+from foparq.check.drawn.facts import EXAMINED, FACTS
+from foparq.check.layers import literal, matches
+from foparq.check.subject import Patterns, Places, Subject, Taken, subject
+from foparq.columns import Geometries, Index, Texts
+from foparq.findings.because import Because
+from foparq.findings.hits import Hits
+from foparq.findings.outcome import Outcome, Status
+from foparq.geom.places import place_on
+from foparq.model.drawing import Drawing, UnitOrigin
+from foparq.model.inputs import Areas, Features, Lines, Named
+from foparq.model.items import Role
+from foparq.model.part import Part
+from foparq.profile.schema import Profile
+
+_UNIT_RULE = "unit-contradiction"
+_LINEWORK = frozenset({Features, Lines, Areas})
+_ALL: Patterns = ("*",)
+
+
+@subject(Drawing)
+class DrawingSubject(Subject):
+    """A drawing: linework in its plane, and what its file says.
+
+    Parameters
+    ----------
+    part : Drawing
+    profile : Profile
+        Says whether hidden layers are looked at.
+    """
+
+    #: statements about the unit decide whether tolerances in metres mean anything
+    leading = (_UNIT_RULE,)
+
+    def __init__(self, part: Part, profile: Profile) -> None:
+        assert isinstance(part, Drawing)  # noqa: S101 - the registry asks by type
+        self.drawing = part
+        self.columns = Columns(part, hidden=profile.reading.hidden == "check")
+        self._taken: dict[tuple[type, Patterns], Taken] = {}
+
+    @property
+    def part(self) -> Drawing:
+        """The drawing."""
+        return self.drawing
+
+    @property
+    def metres(self) -> float:
+        """Metres in one drawing unit; 1 if it is unknown."""
+        return self.columns.metres
+
+    def knows(self, kind: type) -> bool:
+        """Linework and statements of the file."""
+        return kind in _LINEWORK or kind in FACTS
+
+    def take(self, kind: type, layers: Patterns) -> Taken:
+        """Input of one kind on some layers; statements are about the file, whatever the layers."""
+        key = (kind, _ALL if kind in FACTS else layers)
+        if key not in self._taken:
+            self._taken[key] = self._take(kind, layers)
+        return self._taken[key]
+
+    def alone(self, kind: type, layers: Patterns) -> Sequence[Patterns]:
+        """Layers with items of a kind, sound or not, each by itself."""
+        return [(literal(name),) for name in self._holding(kind) if matches(name, layers)]
+
+    def states(self, kind: type) -> bool:
+        """All but linework."""
+        return kind in FACTS
+
+    def examined(self, kind: type) -> bool:
+        """Statements that nobody made mean that there was nothing to say."""
+        return kind in EXAMINED
+
+    def doubt(self, outcomes: Sequence[Outcome]) -> Because:
+        """Unit unknown or contradicted, or a plane that shows the drawing from its edge."""
+        unit = self.drawing.unit
+        if unit.metres is None:
+            return Because.UNIT_UNKNOWN
+        doubted = any(outcome.name == _UNIT_RULE and outcome.status is Status.FAULTY for outcome in outcomes)
+        if doubted and unit.origin is not UnitOrigin.STATED:
+            return Because.UNIT_DOUBTFUL
+        return Because.PLANE_DOUBTFUL if self._edge_on else Because.RAN
+
+    def counted(self, rows: Index, faulty: Index) -> int:
+        """Features judged. A point has no topology: it counts only where it is at fault."""
+        rows = rows[rows >= 0]
+        if not len(rows):
+            return 1  # a statement about the file: the file was checked
+        drawn = rows[self.drawing.items.role[rows] != Role.POINT]
+        return len(np.unique(np.concatenate([drawn, faulty[faulty >= 0]])))
+
+    def named(self, rows: Index) -> tuple[Texts, Texts]:
+        """Item ids and layers."""
+        return self.drawing.items.item[rows], self.drawing.items.layer[rows]
+
+    def places(self, found: Hits, rows: Named) -> Places:
+        """Places in file and plane; a statement about the file has its place in the coordinates of the file."""
+        geometry: Geometries | None = getattr(rows, "geometry", None)
+        if geometry is None:
+            return Places(found.where, self.columns.on_sheet(found.where), place_on(found.where))
+        with np.errstate(invalid="ignore", over="ignore"):  # coordinates may be anything
+            sheet = _with_depth(found, geometry)
+            point = place_on(sheet)
+            seen = np.isfinite(point[:, 0])
+            point[seen] = self._lifted(point[seen])
+            coordinates = shapely.get_coordinates(sheet, include_z=True)
+            where = shapely.set_coordinates(shapely.force_3d(sheet.copy()), self._lifted(coordinates))
+        return Places(where, sheet, point)
+
+    def _lifted(self, coordinates: np.ndarray) -> np.ndarray:
+        flat = coordinates.copy()
+        flat[:, 2] = np.nan_to_num(flat[:, 2])
+        return self.drawing.plane.lift(flat, self.metres)
+
+    @cached_property
+    def _edge_on(self) -> bool:
+        return self.columns.seen_edge_on()
+
+    @cached_property
+    def _on_layer(self) -> dict[str, Index]:
+        # Rows of the columns by layer; they are in order of layers.
+        names, start = np.unique(self.columns.layer.astype(str), return_index=True)
+        ends = np.append(start[1:], len(self.columns.layer))
+        return {name: np.arange(a, b) for name, a, b in zip(names.tolist(), start.tolist(), ends.tolist(), strict=True)}
+
+    def _holding(self, kind: type) -> list[str]:
+        of = self.columns.of_kind(kind, np.arange(len(self.columns.rows)))
+        return sorted(set(self.columns.layer[of].tolist()))
+
+    def _take(self, kind: type, layers: Patterns) -> Taken:
+        if kind in FACTS:
+            return Taken(FACTS[kind](self.drawing), np.empty(0, dtype=np.intp))
+        named = [rows for name, rows in self._on_layer.items() if matches(name, layers)]
+        on = np.concatenate([np.empty(0, dtype=np.intp), *named])
+        rows = self.columns.build(kind, on)
+        every = self.columns.rows[self.columns.of_kind(kind, on)]
+        return Taken(rows, np.setdiff1d(every, rows.row))
+
+
+def _with_depth(found: Hits, geometry: Geometries) -> Geometries:
+    """Places with the depth of the item they lie on, where the drawing has depth and the kernel gave none."""
+    on = geometry[found.row]
+    flat = np.flatnonzero(shapely.has_z(on) & ~shapely.has_z(found.where) & ~shapely.is_empty(found.where))
+    if not len(flat):
+        return found.where
+    places = found.where.copy()
+    point = shapely.points(place_on(places[flat])[:, :2])
+    at = shapely.line_interpolate_point(_as_lines(on[flat]), shapely.line_locate_point(_as_lines(on[flat]), point))
+    depth = np.nan_to_num(shapely.get_z(at))
+    for n, z in zip(flat.tolist(), depth.tolist(), strict=True):
+        places[n] = shapely.force_3d(places[n], z)
+    return places
+
+
+def _as_lines(geometry: Geometries) -> Geometries:
+    """Lines, and the outer boundaries of areas."""
+    lines = geometry.copy()
+    area = shapely.get_type_id(lines) == shapely.GeometryType.POLYGON
+    lines[area] = shapely.get_exterior_ring(lines[area])
+    return lines
