@@ -2,28 +2,34 @@
 """One delivery, audited: read, check, evaluate. The whole flow on a page."""
 
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import shapely
 
 from foparq import __version__
+from foparq.check.bounds import Broken, Budget, budget_of
 from foparq.check.drawn.features import count_features
 from foparq.check.run import check_part
 from foparq.check.validate import validate_checks
-from foparq.errors import ManifestError
+from foparq.errors import ManifestError, UnsafeError
 from foparq.evaluate.evaluate import evaluate
 from foparq.evaluate.evidence import Evidence
+from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.table import Severity, join_findings
 from foparq.model.delivery import Delivery
 from foparq.profile.load import load_manifest, load_profile
 from foparq.profile.schema import Profile
 from foparq.read.delivery import read_delivery, read_loose
+from foparq.read.guard.parent import guarded
+from foparq.read.guard.stream import Stopped, streamed
 from foparq.read.versions import reader_versions
 from foparq.report.record import AuditRecord
 from foparq.units import parse_scale
@@ -139,11 +145,11 @@ def _judged(
     progress: Progress | None, *, loose: bool,
 ) -> Audit:  # fmt: skip
     started = datetime.now(UTC).isoformat(timespec="seconds")
-    checked = [check_part(part, profile, scale, progress) for part in delivery.parts]
+    checked = [check_part(part, profile, scale, progress, _in_child) for part in delivery.parts]
     outcomes = tuple(outcome for one in checked for outcome in one.outcomes)
     findings = join_findings([one.findings for one in checked])
     gap = profile.completeness.gap.si(scale) if profile.completeness and not loose else None
-    counts, uncounted = (None, ()) if gap is None else _counted(delivery, gap)
+    counts, uncounted = (None, ()) if gap is None else _counted(delivery, gap, profile)
     traces = (*log, *(trace for one in checked for trace in one.log), *uncounted)
     evidence = Evidence(
         delivery=delivery, outcomes=outcomes, counts=counts, scale=scale, crashed=bool(log or uncounted),
@@ -170,10 +176,24 @@ def _judged(
     return Audit(record=record, log=(*traces, *evaluated.log))
 
 
-def _counted(delivery: Delivery, gap: float) -> tuple[FeatureCounts | None, tuple[str, ...]]:
-    """Delivered features, or the traceback of what went wrong on our side."""
+def _in_child(function: Callable[..., Iterator[object]], args: tuple[Any, ...], budget: Budget) -> Iterator[object]:
+    """Rules within the bounds of the profile: what a drawing does to them must not happen to the audit."""
+    told = streamed(function, args, seconds=budget.seconds, at_once=budget.at_once, memory=budget.memory)
+    for thing in told:
+        if isinstance(thing, Stopped):
+            yield Broken(Because.LIMIT) if thing.spent else Broken(Because.CRASHED, thing.words)
+        else:
+            yield thing
+
+
+def _counted(delivery: Delivery, gap: float, profile: Profile) -> tuple[FeatureCounts | None, tuple[str, ...]]:
+    """Delivered features, or what went wrong on our side; nothing of both if they cannot be counted within bounds."""
+    seconds = sum(budget_of(part, profile.limits, 0.0).seconds for part in delivery.parts) or 1.0
     try:
-        return count_features(delivery.drawings, gap=gap), ()
+        count = partial(count_features, gap=gap)
+        return guarded(count, delivery.drawings, file="", seconds=seconds, memory=profile.limits.check_memory), ()
+    except UnsafeError:
+        return None, ()
     except Exception:  # noqa: BLE001 - a crash is ours: elements that need the counts are undecided
         return None, (f"counting features\n{traceback.format_exc()}",)
 

@@ -2,22 +2,24 @@
 """The engine: what is set aside, what is not run, what a crash does, and what names a finding."""
 
 import pickle
-from collections.abc import Sequence
-from dataclasses import fields, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 import pytest
 import shapely
 
 from foparq.check import run as engine
+from foparq.check.bounds import Bounded, Broken, Budget
 from foparq.check.drawn.features import count_features
 from foparq.check.registry import all_rules, required_by
-from foparq.check.run import Checked, check_part
+from foparq.check.run import Begun, Checked, check_part
 from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import join_findings
 from foparq.model.drawing import Drawing, DrawingUnit, Reading, UnitOrigin
 from foparq.model.items import Items, Role
+from foparq.model.part import Part
 from foparq.model.plane import Plane, plane_of
 from foparq.profile.adjust import choose
 from foparq.profile.load import load_profile
@@ -379,3 +381,74 @@ def test_findings_cross_processes_whole() -> None:
         assert one.tolist() == two.tolist() or (
             column.name in {"limit", "place"} and np.array_equal(one, two, equal_nan=True)
         )
+
+
+# --- bounds ----------------------------------------------------------------------------------------------------------
+
+
+def stopping_at(name: str, broken: Broken) -> Bounded:
+    """A run that is stopped whenever it comes to one rule."""
+
+    def run(function: Callable[..., Iterator[object]], args: tuple, budget: Budget) -> Iterator[object]:
+        assert budget.at_once < budget.seconds
+        for event in function(*args):
+            yield event
+            if isinstance(event, Begun) and event.outcome.name == name:
+                yield broken
+                return
+
+    return run
+
+
+def test_a_rule_that_exceeds_its_bounds_is_stopped_and_the_others_run() -> None:
+    thing = drawing(POST_TWICE)
+    whole = check(thing)
+    bounded = check_part(thing, PROFILE, 50, bounded=stopping_at("self-intersection", Broken(Because.LIMIT)))
+    stopped = outcome(bounded, "self-intersection")
+    assert (stopped.status, stopped.because) == (Status.NOT_RUN, Because.LIMIT)
+    assert outcome(bounded, "gap").because is Because.NOTHING
+    assert bounded.findings.key.tolist() == whole.findings.key.tolist()
+    assert len(bounded.outcomes) == len(whole.outcomes)
+
+
+def test_what_requires_a_stopped_rule_is_not_run() -> None:
+    bounded = check_part(drawing(POST_TWICE), PROFILE, 50, bounded=stopping_at("duplicate", Broken(Because.LIMIT)))
+    for name in ("undershoot", "overshoot", "free-end", "line-overlap"):
+        assert outcome(bounded, name).because is Because.REQUIRED_NOT_RUN
+
+
+def test_a_child_that_fails_is_a_crash_with_its_last_words() -> None:
+    broken = Broken(Because.CRASHED, "exit status -11")
+    bounded = check_part(drawing(POST_TWICE), PROFILE, 50, bounded=stopping_at("duplicate", broken))
+    assert outcome(bounded, "duplicate").status is Status.CRASHED
+    assert bounded.log == ("exit status -11",)
+
+
+def test_a_part_whose_inputs_exceed_the_bounds_has_no_rule_run() -> None:
+    def at_once(function: object, args: object, budget: object) -> Iterator[object]:  # noqa: ARG001 - the protocol
+        yield Broken(Because.LIMIT)
+
+    bounded = check_part(drawing(POST_TWICE), PROFILE, 50, bounded=at_once)
+    assert {found.because for found in bounded.outcomes} == {Because.LIMIT}
+    assert len(bounded.outcomes) == len(PROFILE.checks)
+
+
+def test_a_part_of_no_known_kind_crashes_every_rule_and_ends_nothing() -> None:
+    @dataclass(frozen=True, kw_only=True)
+    class Odd(Part):
+        vertices = 0
+
+    checked = check_part(Odd(path="x"), PROFILE, 50)
+    assert {found.status for found in checked.outcomes} == {Status.CRASHED}
+    assert len(checked.log) == 1
+
+
+def test_memory_that_runs_out_is_a_limit_and_no_crash(monkeypatch: pytest.MonkeyPatch) -> None:
+    def greedy(_lines: object, **_tolerances: float) -> None:
+        raise MemoryError
+
+    rules = dict(all_rules())
+    rules["TOP001"] = replace(rules["TOP001"], check=greedy)  # type: ignore[arg-type]
+    monkeypatch.setattr(engine, "all_rules", lambda: rules)
+    checked = check(drawing(POST_TWICE), "duplicate")
+    assert (outcome(checked, "duplicate").because, checked.log) == (Because.LIMIT, ())

@@ -4,15 +4,17 @@
 import ctypes
 import faulthandler
 import logging
+import math
 import os
 import pickle
 import signal
 import sys
 import traceback
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import IO, Any, NoReturn
 
 from foparq.errors import FoparqError
 
@@ -66,12 +68,89 @@ def serve(
         os._exit(status)
 
 
+@dataclass(frozen=True, slots=True)
+class End:
+    """Last frame of a generator."""
+
+    memory: bool  #: it ended because memory ran out
+
+
+def serve_stream(
+    function: Callable[..., Iterator[object]],
+    args: tuple[Any, ...],
+    *,
+    seconds: float,
+    at_once: float,
+    memory: int,
+    answer: int,
+    words: int,
+    parent: int,
+) -> NoReturn:
+    """Run a generator within bounds, write what it yields to a pipe, pickled and framed, and leave.
+
+    Parameters
+    ----------
+    function, args
+        The generator.
+    seconds : float
+        Processor time in all.
+    at_once : float
+        Processor time between two things. The process ends by ``SIGPROF`` where it is exceeded, also within C.
+    memory : int
+        Bytes beyond what this process has now.
+    answer, words : int
+        File descriptors: the frames; whatever is printed.
+    parent : int
+        Process id of the parent.
+
+    Notes
+    -----
+    A frame is its length in eight bytes and a pickle. The last holds an :class:`End`.
+    """
+    status = 1
+    try:
+        _hush(words)
+        lift = _bound(seconds, memory, parent, grace=0)
+        with os.fdopen(answer, "wb") as pipe:
+            try:
+                _timed(at_once)
+                for thing in function(*args):
+                    _timed(0)
+                    _write_frame(pipe, thing)
+                    _timed(at_once)
+                last = End(memory=False)
+            except MemoryError:
+                last = End(memory=True)
+            _timed(0)
+            lift()
+            _write_frame(pipe, last)
+        status = 0
+    except BaseException:  # noqa: BLE001 - nothing may run on in a forked child
+        traceback.print_exc()
+    finally:
+        os._exit(status)
+
+
+def _timed(seconds: float) -> None:
+    if hasattr(signal, "setitimer"):
+        signal.setitimer(signal.ITIMER_PROF, seconds)
+
+
+def _write_frame(pipe: IO[bytes], thing: object) -> None:
+    data = pickle.dumps(thing, protocol=5)
+    pipe.write(len(data).to_bytes(8, "big"))
+    pipe.write(data)
+    pipe.flush()
+
+
 def main() -> NoReturn:
     """Entry of a fresh interpreter: the job comes from stdin, the answer goes to stdout."""
     sys.path[:], parent = pickle.load(sys.stdin.buffer)  # noqa: S301 - written by the parent
-    function, args, seconds, memory = pickle.load(sys.stdin.buffer)  # noqa: S301
-    answer = os.dup(1)
-    serve(function, args, seconds=seconds, memory=memory, answer=answer, words=os.dup(2), parent=parent)
+    function, args, bounds = pickle.load(sys.stdin.buffer)  # noqa: S301
+    answer, words = os.dup(1), os.dup(2)
+    if "at_once" in bounds:
+        serve_stream(function, args, **bounds, answer=answer, words=words, parent=parent)
+    serve(function, args, **bounds, answer=answer, words=words, parent=parent)
 
 
 def _call(function: Callable[..., Any], args: tuple[Any, ...]) -> tuple[str, object]:
@@ -100,7 +179,7 @@ def _hush(words: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def _bound(seconds: float, memory: int, parent: int) -> Callable[[], None]:
+def _bound(seconds: float, memory: int, parent: int, grace: int = _GRACE) -> Callable[[], None]:
     # Returns what lifts the limit of memory again: the answer is not part of the reading.
     if sys.platform != "linux":
         return lambda: None
@@ -116,7 +195,7 @@ def _bound(seconds: float, memory: int, parent: int) -> Callable[[], None]:
     resource.setrlimit(resource.RLIMIT_AS, (allowed, highest))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
-    processor = int(seconds) + _GRACE
+    processor = math.ceil(seconds) + grace
     _, most = resource.getrlimit(resource.RLIMIT_CPU)
     resource.setrlimit(
         resource.RLIMIT_CPU, (processor if most == resource.RLIM_INFINITY else min(processor, most), most)

@@ -74,7 +74,7 @@ def guarded(function: Callable[..., T], *args: Any, file: str, seconds: float, m
     The child is forked where that is safe, which costs 10 ms: on Linux, while the process has one thread. Elsewhere a
     fresh interpreter is started. On Linux the child dies with its parent. Warnings of the libraries stay in the child.
     """
-    run = _fork if _LINUX and threading.active_count() == 1 else _start
+    run = _fork if can_fork() else _start
     end = run(function, args, seconds, memory)
     if not end.in_time:
         raise UnsafeError("read.too-slow", file=file, seconds=int(seconds))
@@ -89,6 +89,11 @@ def guarded(function: Callable[..., T], *args: Any, file: str, seconds: float, m
     if isinstance(value, FoparqError):
         raise value
     raise RuntimeError(value)
+
+
+def can_fork() -> bool:
+    """Whether a fork of this process is safe: on Linux, while it has one thread."""
+    return _LINUX and threading.active_count() == 1
 
 
 def _died(end: _End, file: str) -> UnsafeError:
@@ -161,7 +166,7 @@ def _left(child: int, deadline: float) -> int | None:
 
 def _start(function: Callable[..., Any], args: tuple[Any, ...], seconds: float, memory: int) -> _End:
     job = pickle.dumps((sys.path, os.getpid()), protocol=5) + pickle.dumps(
-        (function, args, seconds, memory), protocol=5
+        (function, args, {"seconds": seconds, "memory": memory}), protocol=5
     )
     command = [sys.executable, "-W", "ignore", "-c", "from foparq.read.guard.child import main; main()"]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:  # noqa: S603 - own interpreter
