@@ -1,0 +1,315 @@
+# SPDX-License-Identifier: MIT
+"""Whether the tests would notice: small changes of the source, each against the tests that reach it.
+
+``python -m tests.tools.mutate --count 90`` from the root of the checkout. The first run learns which functions every
+test calls (one run of the suite); later ones reuse that. Nothing of the checkout is changed: mutants live in copies.
+A mutant is *killed* by a failing test, a crash, or a hang; *survivors* are a missing test or change nothing that can be
+told, which ``mutants.toml`` then says under ``[[equivalent]]``.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import tomllib
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+from queue import Queue
+from typing import Any
+
+from tests.tools.mutants import ROOMS, Mutant, by_chance, by_hand
+
+ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).parent
+DATA = HERE / "mutants.toml"
+#: tests about how the code is written, not about what it does
+_HOUSE = ("tests/test_house.py", "tests/test_contributing.py")
+_LEFT = shutil.ignore_patterns(
+    ".git", ".venv", "__pycache__", "audit", ".hypothesis", "data", "*.log", ".*_cache", "dist", "node_modules"
+)
+_CONFIGURE = ""  #: the test that functions belong to which run before any test
+
+
+@dataclass(slots=True)
+class Reach:
+    """Which tests call which functions, and how long they take."""
+
+    called: dict[str, dict[str, list[str]]]  #: file, function, tests
+    seconds: dict[str, float]  #: of every test that passes
+
+    def of(self, mutant: Mutant) -> dict[str, float]:
+        """Tests that may tell a mutant, in the order to run them, with the seconds each may take.
+
+        First those that call the function; then their neighbours, which may share a cached result or a fixture. Files
+        with quick tests come first.
+        """
+        functions = self.called.get(mutant.file, {})
+        tests = set(functions.get(mutant.function, []))
+        if not tests - {_CONFIGURE}:
+            # Code outside of functions, and what runs when tests are collected: whoever uses the file.
+            tests = {test for group in functions.values() for test in group}
+        files = {test.split("::")[0] for test in tests}
+        order: dict[str, float] = {}
+        groups = defaultdict(list)
+        for test, spent in self.seconds.items():
+            file = test.split("::")[0]
+            if file in files:
+                groups[(test not in tests, file)].append((spent, test))
+        for _, group in sorted(groups.items(), key=lambda pair: (pair[0][0], sorted(pair[1])[len(pair[1]) // 2])):
+            order |= {test: 20.0 + 10 * spent for spent, test in sorted(group)}
+        return order
+
+    def everything(self) -> dict[str, float]:
+        """All tests."""
+        return {test: 20.0 + 10 * spent for test, spent in self.seconds.items()}
+
+
+@dataclass(slots=True)
+class Worker:
+    """A copy of the tree and the process that runs tests over it."""
+
+    tree: Path
+    environment: dict[str, str] = field(default_factory=dict)
+    process: Any = field(init=False)
+
+    def __post_init__(self) -> None:
+        shared = os.environ.get("FOPARQ_SHARED", str(ROOT.parent / "shared"))
+        given = {"FOPARQ_SHARED": shared, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", **self.environment}
+        self.process = subprocess.Popen(
+            [sys.executable, str(HERE / "worker.py"), str(self.tree)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            text=True, env={**os.environ, **given}, cwd=self.tree,
+        )  # fmt: skip
+
+    def run(self, files: list[str], order: dict[str, float] | None, *, stop: bool) -> dict[str, Any]:
+        """Result of the tests of some files: of those in ``order``, or of all."""
+        self.process.stdin.write(json.dumps({"order": order, "files": files, "stop": stop}) + "\n")
+        self.process.stdin.flush()
+        found: dict[str, Any] = json.loads(self.process.stdout.readline())
+        return found
+
+    def try_out(self, mutant: Mutant, order: dict[str, float]) -> dict[str, Any]:
+        """Result of tests over one mutant."""
+        path = self.tree / "src" / "foparq" / mutant.file
+        right, times = path.read_text(encoding="utf-8"), path.stat()
+        try:
+            path.write_text(mutant.applied(right), encoding="utf-8")
+            return self.run(sorted({test.split("::")[0] for test in order}), order, stop=True)
+        finally:
+            path.write_text(right, encoding="utf-8")
+            os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+
+    def close(self) -> None:
+        """End the process."""
+        self.process.stdin.close()
+        self.process.wait()
+
+
+def copies(folder: Path, count: int) -> list[Path]:
+    """Fresh copies of the tree."""
+    made = []
+    for number in range(count):
+        tree = folder / f"tree-{number}"
+        shutil.rmtree(tree, ignore_errors=True)
+        shutil.copytree(ROOT, tree, ignore=_LEFT)
+        made.append(tree)
+    return made
+
+
+def reach_of(tree: Path, folder: Path, *, fresh: bool) -> Reach:
+    """What the tests reach, learnt once a folder; files of tests that are new or changed are learnt again."""
+    kept = folder / "reach.json"
+    reach, known = Reach({}, {}), {}
+    if kept.is_file() and not fresh:
+        said = json.loads(kept.read_text(encoding="utf-8"))
+        reach, known = Reach(said["called"], said["seconds"]), said["files"]
+    now = {
+        path.relative_to(tree).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted((tree / "tests").rglob("test_*.py"))
+    }
+    changed = [file for file, digest in now.items() if known.get(file) != digest and file not in _HOUSE]
+    if changed:
+        files = [*changed, "src"] if not known else changed
+        old = {test for test in reach.seconds if test.split("::")[0] not in now or test.split("::")[0] in files}
+        seconds, called = _learn(tree, folder, files)
+        reach.seconds = {test: spent for test, spent in reach.seconds.items() if test not in old} | seconds
+        for file in {*reach.called, *called}:
+            rows = reach.called.setdefault(file, {})
+            for name in {*rows, *called.get(file, {})}:
+                rows[name] = sorted({*rows.get(name, ())} - old | called.get(file, {}).get(name, set()))
+        said = {"called": reach.called, "seconds": reach.seconds, "files": now}
+        kept.write_text(json.dumps(said), encoding="utf-8")
+    return reach
+
+
+def _learn(tree: Path, folder: Path, files: list[str]) -> tuple[dict[str, float], dict[str, dict[str, set[str]]]]:
+    """Seconds of the tests of some files, and which functions each calls."""
+    pipe = folder / "reach.pipe"
+    pipe.unlink(missing_ok=True)
+    os.mkfifo(pipe)
+    called: dict[str, dict[str, set[str]]] = defaultdict(lambda: defaultdict(set))
+    end = os.open(pipe, os.O_RDWR)
+    listener = threading.Thread(target=_listen, args=(end, called))
+    listener.start()
+    trace = str(HERE / "trace")
+    worker = Worker(tree, {"FOPARQ_REACH": str(pipe), "FOPARQ_TRACE": trace, "PYTHONPATH": trace})
+    run = worker.run(files, None, stop=False)
+    worker.close()
+    os.write(end, b"\n")
+    listener.join()
+    if run["failed"]:
+        print(f"these tests fail without any mutant and are left out: {run['failed']}", flush=True)
+    return {test: spent for test, spent in run["passed"].items() if test not in run["failed"]}, called
+
+
+def _listen(end: int, called: Mapping[str, Mapping[str, set[str]]]) -> None:
+    with os.fdopen(end, "rb", closefd=True) as stream:
+        for line in stream:
+            if line == b"\n":
+                return
+            file, name, test = line.decode().rstrip("\n").split("\x1f")
+            called[file][name.split(".<locals>")[0]].add(test.rpartition(" (")[0])
+
+
+def outcome(found: Mapping[str, Any]) -> str:
+    """``killed``, ``hung``, ``survived`` or ``unreached``."""
+    if found["code"] == -14:
+        return "hung"
+    return {0: "survived", 5: "unreached"}.get(found["code"], "killed")
+
+
+def _line(mutant: Mutant, row: Mapping[str, Any]) -> str:
+    change = f"{mutant.file}: {mutant.old!r} -> {mutant.new!r}"
+    return f"{row['outcome']:9} {row['seconds']:6.1f} s of {row['tests']:4} tests {change} {''.join(row['by'])}"
+
+
+def rows_of(path: Path) -> dict[str, dict[str, Any]]:
+    """Results of former runs by key."""
+    if not path.is_file():
+        return {}
+    rows = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    return {row["key"]: row for row in rows}
+
+
+def told_equivalent(mutants: Iterable[Mutant], source: Path) -> dict[str, str]:
+    """Why some mutants change nothing that can be told, by key."""
+    rows = tomllib.loads(DATA.read_text(encoding="utf-8")).get("equivalent", [])
+    told = {}
+    for mutant in mutants:
+        text = (source / mutant.file).read_text(encoding="utf-8")
+        line = mutant.applied(text).splitlines()[text.count("\n", 0, mutant.start)].strip()
+        why = [row["why"] for row in rows if row["file"] == mutant.file and row["mutant"].strip() == line]
+        if why or mutant.equivalent:
+            told[mutant.key] = mutant.equivalent or why[0]
+    return told
+
+
+def table(mutants: Iterable[Mutant], results: Mapping[str, Mapping[str, Any]], told: Mapping[str, str]) -> str:
+    """Counts a room, and every survivor with its change."""
+    text = {mutant.file: (ROOT / "src" / "foparq" / mutant.file).read_text(encoding="utf-8") for mutant in mutants}
+    counts: dict[str, Counter[str]] = defaultdict(Counter)
+    survivors = []
+    for mutant in mutants:
+        if mutant.key not in results:
+            continue
+        status = results[mutant.key]["outcome"]
+        if status not in {"killed", "hung"}:
+            status = "equivalent" if mutant.key in told else status
+            said = told.get(mutant.key) or mutant.why
+            survivors.append(
+                f"{status} {mutant.key} {mutant.function or '(module)'}: {said}\n{mutant.diff(text[mutant.file])}"
+            )
+        counts[mutant.room][status] += 1
+    heads = ("killed", "hung", "survived", "unreached", "equivalent")
+    lines = ["| room | mutants | " + " | ".join(heads) + " |", "|---" * (len(heads) + 2) + "|"]
+    total: Counter[str] = Counter()
+    for room in ROOMS:
+        if room in counts:
+            lines.append(f"| {room} | {counts[room].total()} | {' | '.join(str(counts[room][h]) for h in heads)} |")
+            total += counts[room]
+    lines.append(f"| all | {total.total()} | {' | '.join(str(total[head]) for head in heads)} |")
+    dead = total["killed"] + total["hung"]
+    lines.append(f"\n{dead} of {total.total()} killed: {100 * dead / max(1, total.total()):.1f} %")
+    return "\n".join(lines) + "\n\n" + "\n\n".join(survivors)
+
+
+def work(
+    mutants: Iterable[Mutant], workers: list[Worker], reach: Reach, *, whole: bool
+) -> Iterator[tuple[Mutant, dict[str, Any]]]:
+    """Results as they come."""
+    free: Queue[Worker] = Queue()
+    for worker in workers:
+        free.put(worker)
+
+    def one(mutant: Mutant) -> tuple[Mutant, dict[str, Any]]:
+        worker = free.get()
+        try:
+            order = reach.of(mutant)
+            found = worker.try_out(mutant, order) if order else {"code": 5, "failed": [], "passed": {}, "seconds": 0.0}
+            if whole and outcome(found) in {"survived", "unreached"}:
+                found = worker.try_out(mutant, reach.everything())
+        finally:
+            free.put(worker)
+        return mutant, {
+            "key": mutant.key, "outcome": outcome(found), "by": found["failed"][:1], "tests": len(order),
+            "seconds": round(found["seconds"], 1), "code": found["code"], "file": mutant.file,
+        }  # fmt: skip
+
+    with ThreadPoolExecutor(len(workers)) as pool:
+        yield from pool.map(one, mutants)
+
+
+def main() -> None:
+    """Make mutants, run tests over them, print the table."""
+    ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    ask.add_argument("--count", type=int, default=90, help="random mutants")
+    ask.add_argument("--seed", type=int, default=1)
+    ask.add_argument("--no-hand", action="store_true", help="leave out those of mutants.toml")
+    ask.add_argument("--only", default="", help="only files whose name contains this")
+    ask.add_argument("--resume", action="store_true", help="keep former results; only what is new or survived is run")
+    ask.add_argument("--keep-survivors", action="store_true", help="with --resume: run no survivors again")
+    ask.add_argument(
+        "--whole", action="store_true", help="run the whole suite over what survives the tests that reach it"
+    )
+    ask.add_argument("--fresh", action="store_true", help="learn anew what the tests reach")
+    ask.add_argument("--workers", type=int, default=2)
+    ask.add_argument("--folder", type=Path, default=Path(tempfile.gettempdir()) / "foparq-mutation")
+    given = ask.parse_args()
+    source = ROOT / "src" / "foparq"
+    made, stale = by_hand(DATA, source)
+    made = ([] if given.no_hand else made) + by_chance(source, given.count, given.seed)
+    made = [mutant for mutant in made if given.only in mutant.file]
+    given.folder.mkdir(parents=True, exist_ok=True)
+    workers = [Worker(tree) for tree in copies(given.folder, given.workers)]
+    reach = reach_of(workers[0].tree, given.folder, fresh=given.fresh)
+    kept = given.folder / "results.jsonl"
+    results = rows_of(kept) if given.resume else {}
+    done = {key for key, row in results.items() if given.keep_survivors or row["outcome"] in {"killed", "hung"}}
+    told = told_equivalent(made, source)
+    todo = [
+        mutant
+        for mutant in made
+        if mutant.key not in done and not (given.resume and mutant.key in told and mutant.key in results)
+    ]
+    with kept.open("a" if given.resume else "w", encoding="utf-8") as stream:
+        for number, (mutant, row) in enumerate(work(todo, workers, reach, whole=given.whole), 1):
+            results[mutant.key] = row
+            stream.write(json.dumps(row) + "\n")
+            stream.flush()
+            print(f"{number}/{len(todo)} {_line(mutant, row)}", flush=True)
+    for worker in workers:
+        worker.close()
+    print("\n" + table(made, results, told))
+    for line in stale:
+        print(f"stale: {line}")
+
+
+if __name__ == "__main__":
+    main()
