@@ -14,7 +14,6 @@ from tests.evaluate.deliveries import (
     judge,
     listed,
     messages,
-    not_run,
     one,
     outcome,
     parameter,
@@ -199,33 +198,6 @@ RATE = spec("faulty-rate", rules=("gap",), limit=Quantity(25, "%"))
 def test_a_rate_at_the_limit_passes(faulty: int, status: ElementStatus) -> None:
     element = one(RATE, delivery=HERE, outcomes=[outcome("gap", range(faulty), checked=64)])
     assert (element.status, element.value) == (status, faulty / 64)
-
-
-@pytest.mark.parametrize(("faulty", "status"), [(16, UNDECIDED), (17, FAIL)])
-def test_unchecked_drawings_are_given_the_benefit_up_to_the_limit(faulty: int, status: ElementStatus) -> None:
-    both = drawn(drawing(n=32), drawing("b.dxf", n=32))
-    outcomes = [outcome("gap", range(faulty), checked=32), not_run("gap", "unit-unknown", "b.dxf")]
-    assert one(RATE, delivery=both, outcomes=outcomes).status is status
-
-
-@pytest.mark.parametrize(("aside", "status"), [(8, PASS), (9, UNDECIDED)])
-def test_features_set_aside_may_bring_it_up_to_the_limit(aside: int, status: ElementStatus) -> None:
-    outcomes = [
-        outcome("invalid-geometry", range(40, 40 + aside), checked=64),
-        outcome("gap", range(8), checked=64 - aside, skipped=aside),
-    ]
-    element = one(RATE, delivery=HERE, outcomes=outcomes)
-    assert (element.status, parameter(element, "set-aside")) == (status, aside)
-
-
-@pytest.mark.parametrize(("found", "status"), [(3, PASS), (4, FAIL)])
-def test_a_count_at_the_limit_passes(found: int, status: ElementStatus) -> None:
-    count = spec("found-rate", rules=("gap",), limit=Quantity(3, "items"))
-    assert one(count, delivery=HERE, outcomes=[outcome("gap", range(found), checked=64)]).status is status
-    open_ = [outcome("gap", range(1), checked=64 - found + 1, skipped=found - 1)]
-    other = [outcome("invalid-geometry", range(20, 19 + found), checked=64)]
-    known = PASS if status is PASS else UNDECIDED
-    assert one(count, delivery=HERE, outcomes=[*open_, *other]).status is known
 
 
 @pytest.mark.parametrize(("found", "status"), [(16, PASS), (17, FAIL)])
