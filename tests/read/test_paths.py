@@ -42,6 +42,11 @@ def test_ways_to_a_file_inside(station: Path, named: str) -> None:
     assert inside(station, named) == (station / "desenhos" / "fachada.dxf").resolve()
 
 
+def test_a_delivery_reached_through_a_link_is_the_same_delivery(station: Path) -> None:
+    (station.parent / "elo").symlink_to(station)
+    assert inside(station.parent / "elo", "desenhos/fachada.dxf") == (station / "desenhos" / "fachada.dxf").resolve()
+
+
 def test_a_file_inside_need_not_exist(station: Path) -> None:
     assert inside(station, "nada.dxf") == station.resolve() / "nada.dxf"
 

@@ -137,9 +137,10 @@ def _fitted(points: Coordinates) -> Plane:
 
 
 def _orthonormal(first: Coordinates, second: Coordinates) -> tuple[Coordinates, Coordinates]:
-    right = first / np.linalg.norm(first) if np.any(first) else first
-    rest = second - right * (second @ right)
-    length = np.linalg.norm(rest)
+    with np.errstate(invalid="ignore"):  # axes that are not finite give a rest that is not
+        right = first / np.linalg.norm(first) if np.any(first) else first
+        rest = second - right * (second @ right)
+        length = np.linalg.norm(rest)
     if not np.isfinite(rest).all() or not np.any(first) or length <= 1e-9 * np.linalg.norm(second):
         raise ManifestError(
             "manifest.plane-axes", value=[first.tolist(), second.tolist()], example="[[0,0,0],[1,0,0],[0,0,1]]"
