@@ -18,7 +18,8 @@ def test_rounding_never_moves_the_rmse_further_than_the_bound(
     differences: np.ndarray, noise: np.ndarray, resolution: float
 ) -> None:
     moved = abs(moments(differences + noise * resolution).rmse - moments(differences).rmse)
-    assert moved <= rounding_bound(resolution) * (1 + 1e-12)
+    # Numbers near one are themselves rounded, by 1e-16.
+    assert moved <= rounding_bound(resolution) * (1 + 1e-12) + 1e-15
 
 
 def test_the_rounding_bound_is_reached() -> None:
