@@ -19,7 +19,8 @@ from foparq.model.drawing import Bomb, Drawing, DrawingUnit, Reading, Skipped, U
 from foparq.model.items import Items, Role
 from foparq.model.plane import Plane
 from foparq.model.tables import Checkpoints, Distances, FeatureList
-from foparq.profile.schema import CheckSpec, ElementSpec, Profile, ReadingSpec
+from foparq.profile.elements import ElementSpec
+from foparq.profile.schema import CheckSpec, Profile, ReadingSpec
 from foparq.report.sentences import reason_sentence
 from foparq.report.words import Words
 from foparq.units import parse_quantity
@@ -38,7 +39,7 @@ def spec(kind: str, **changes: Any) -> ElementSpec:
         given["limit"] = parse_quantity(*LIMITS[kind])
     if kind in {"absolute", "relative"}:
         given |= {"reference_share": 1 / 3, "fewest": 3}
-    return ElementSpec(**{**given, **changes})
+    return ElementSpec.KINDS[kind](**{**given, **changes})
 
 
 def profile(*elements: ElementSpec) -> Profile:

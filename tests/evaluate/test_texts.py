@@ -24,7 +24,7 @@ SHAPED = r"^[a-z]+\.[a-z-]+$"
 def reasons() -> set[str]:
     """Message ids that the evaluation may give, read from its source."""
     found = {f"features.{gap.value}" for gap in Gap if gap is not Gap.NONE}
-    for path in sorted(CODE.glob("*.py")):
+    for path in sorted(CODE.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Constant) and isinstance(node.value, str) and re.match(SHAPED, node.value):
                 found.add(node.value)

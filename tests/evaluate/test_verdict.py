@@ -21,13 +21,12 @@ from tests.evaluate.deliveries import (
     surveyed,
 )  # fmt: skip
 
-from foparq.evaluate.evaluate import KINDS
 from foparq.evaluate.quality import ElementStatus, Verdict
 from foparq.findings.because import Because
 from foparq.findings.outcome import Status
 from foparq.model.delivery import Delivery, SourceStatus
+from foparq.profile.elements import ElementSpec
 from foparq.profile.load import load_profile
-from foparq.profile.schema import ElementSpec
 from foparq.units import Quantity
 
 
@@ -119,7 +118,7 @@ def test_the_station_is_accepted_for_class_a_and_b() -> None:
         elements = load_profile(name).elements
         report = judge(*elements, **station())
         assert report.verdict is Verdict.ACCEPTED, report.why
-        assert {spec_.kind for spec_ in elements} == set(KINDS)
+        assert {spec_.kind for spec_ in elements} == set(ElementSpec.KINDS)
 
 
 def test_the_station_measured_with_a_tape_is_undecided() -> None:

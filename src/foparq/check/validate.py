@@ -26,7 +26,7 @@ def validate_checks(profile: Profile) -> None:
             )
         _validate_tolerances(spec, by_name[spec.rule])
     for element in profile.elements:
-        for name in element.rules:
+        for name in element.uses:
             if name not in by_name:
                 raise ProfileError("profile.unknown-rule", value=name, example="undershoot", file=profile.path, line=1)
 

@@ -16,7 +16,7 @@ from foparq.findings.table import Severity
 from foparq.model.delivery import LOST, SourceStatus
 from foparq.report.audit_json import audit_json, findings_csv, findings_jsonl, findings_rows
 from foparq.report.record import AuditRecord
-from foparq.report.sentences import aside_sentence, outcome_because, reason_sentence, source_sentence
+from foparq.report.sentences import aside_sentence, element_title, outcome_because, reason_sentence, source_sentence
 from foparq.report.words import Words, printable
 
 _SHOWN = 10  #: findings of one kind that the text names
@@ -102,7 +102,7 @@ def _element(element: Element, say: Words) -> None:
     value = "–" if element.value is None else _size(say, element.value, element.unit)
     limit = "" if element.limit is None else f"{element.comparison} {_size(say, element.limit, element.unit)}"
     status = say(f"cli.status.{'reported' if element.only_reported else element.status.value}")
-    title = say(f"evaluate.element.{element.id}.title")
+    title = element_title(say, element)
     name = f"{element.id:<11}{title}"
     click.echo(f"{name[:62]:<62} {value:>12} {limit:>13}  {status}")
     for reason in element.why:

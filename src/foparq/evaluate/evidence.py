@@ -12,7 +12,7 @@ from foparq.findings.outcome import Outcome
 from foparq.model.delivery import LOST, Delivery
 from foparq.model.drawing import Drawing, Skipped, SkippedReason
 from foparq.model.part import Part
-from foparq.profile.schema import ElementSpec
+from foparq.profile.elements import ElementSpec, LimitedSpec
 
 Parameters = tuple[tuple[str, float, str], ...]
 
@@ -89,12 +89,12 @@ def element(
     )  # fmt: skip
 
 
-def limit_of(spec: ElementSpec, evidence: Evidence, symbol: str, name: str) -> tuple[float | None, Reason | None]:
+def limit_of(spec: LimitedSpec, evidence: Evidence, symbol: str, name: str) -> tuple[float | None, Reason | None]:
     """Limit of an element in SI units, or why there is none that can be used.
 
     Parameters
     ----------
-    spec : ElementSpec
+    spec : LimitedSpec
     evidence : Evidence
     symbol : str
         SI unit of the value.

@@ -13,7 +13,7 @@ from foparq.evaluate.measures import measure_counting
 from foparq.evaluate.quality import ElementStatus, Reason, because
 from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, Status
-from foparq.profile.schema import ElementSpec
+from foparq.profile.elements import ElementSpec
 
 #: reasons that speak of a whole file
 OF_FILES = frozenset({Because.UNIT_UNKNOWN, Because.UNIT_DOUBTFUL, Because.PLANE_DOUBTFUL})

@@ -11,7 +11,7 @@ from foparq.accuracy.moments import Moments, moments
 from foparq.columns import Reals
 from foparq.evaluate.evidence import Judgement, Parameters, judged
 from foparq.evaluate.quality import ElementStatus, Reason, because
-from foparq.profile.schema import ElementSpec
+from foparq.profile.elements import ReferencedSpec
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,7 +45,7 @@ class Sample:
         return because(f"{self.kind}.{case}", element=self.id, **fields)
 
 
-def judge_rmse(sample: Sample, spec: ElementSpec, limit: float) -> Judgement:
+def judge_rmse(sample: Sample, spec: ReferencedSpec, limit: float) -> Judgement:
     """Status of an RMSE against a strict upper limit.
 
     The order of decisions:
@@ -61,7 +61,7 @@ def judge_rmse(sample: Sample, spec: ElementSpec, limit: float) -> Judgement:
     ----------
     sample : Sample
         At least one row.
-    spec : ElementSpec
+    spec : ReferencedSpec
     limit : float
         Metres.
 
@@ -98,7 +98,7 @@ def judge_rmse(sample: Sample, spec: ElementSpec, limit: float) -> Judgement:
     return judged(ElementStatus.PASS, passed, *_remarks(sample, found, spec, limit))
 
 
-def rmse_parameters(sample: Sample, spec: ElementSpec) -> Parameters:
+def rmse_parameters(sample: Sample, spec: ReferencedSpec) -> Parameters:
     """Statistics that stand beside an RMSE."""
     found = moments(sample.known)
     rows = [
@@ -127,7 +127,7 @@ def _poor_reference(sample: Sample, found: Moments, limit: float, allowed: float
     return None
 
 
-def _remarks(sample: Sample, found: Moments, spec: ElementSpec, limit: float) -> tuple[Reason, ...]:
+def _remarks(sample: Sample, found: Moments, spec: ReferencedSpec, limit: float) -> tuple[Reason, ...]:
     upper = rmse_upper(found.rmse, found.n, confidence=spec.confidence)
     if upper < limit:
         return ()

@@ -3,7 +3,7 @@
 
 from collections.abc import Iterable, Sequence
 
-from foparq.evaluate.absolute import AXES
+from foparq.evaluate.elements.absolute import AXES
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
 from foparq.findings.outcome import Status

@@ -29,7 +29,7 @@ def choose(profile: Profile, names: Collection[str], helpers: Collection[str] = 
         for spec in profile.checks
         if spec.rule in kept or spec.rule in helpers
     )
-    elements = tuple(spec for spec in profile.elements if set(spec.rules) <= kept)
+    elements = tuple(spec for spec in profile.elements if set(spec.uses) <= kept)
     return profile.model_copy(update={"checks": checks, "elements": elements})
 
 

@@ -9,8 +9,9 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from foparq.errors import ManifestError, ProfileError, QuantityError, UsageError
+from foparq.profile.elements import ElementSpec
 from foparq.profile.manifest import Manifest
-from foparq.profile.schema import CheckSpec, ElementSpec, Profile
+from foparq.profile.schema import CheckSpec, Profile
 from foparq.profile.toml_text import TomlText, read_toml
 from foparq.resources import shipped
 
@@ -162,10 +163,15 @@ def _checks(text: TomlText) -> list[CheckSpec]:
 
 
 def _elements(text: TomlText) -> list[ElementSpec]:
-    return [
-        _validated(ElementSpec, table, text, ProfileError, ("element", number))
-        for number, table in enumerate(_tables(text, "element"))
-    ]
+    made = []
+    for number, table in enumerate(_tables(text, "element")):
+        kind = table.get("kind")
+        known = ElementSpec.KINDS.get(kind) if isinstance(kind, str) else None
+        if kind is not None and known is None:
+            place = {"file": str(text.path), "line": text.line(("element", number, "kind"))}
+            raise ProfileError("profile.unknown-kind", value=kind, known=", ".join(sorted(ElementSpec.KINDS)), **place)
+        made.append(_validated(known or ElementSpec, table, text, ProfileError, ("element", number)))
+    return made
 
 
 def _tables(text: TomlText, key: str) -> list[Mapping[str, Any]]:

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
-from foparq.profile.schema import Length, Strict
+from foparq.profile.quantities import Length, Strict
 from foparq.units import parse_length_unit, parse_scale
 
 

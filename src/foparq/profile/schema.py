@@ -2,32 +2,13 @@
 """The product specification, typed: which rules on which layers with which tolerances, and which limits."""
 
 from collections.abc import Mapping
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import Field
 
 from foparq.findings.table import Severity
-from foparq.units import Quantity, parse_any_quantity, parse_quantity
-
-
-def _quantity(symbol: str) -> BeforeValidator:
-    return BeforeValidator(lambda text: text if isinstance(text, Quantity) else parse_quantity(text, symbol))
-
-
-Length = Annotated[Quantity, _quantity("m")]
-Area = Annotated[Quantity, _quantity("m2")]
-Share = Annotated[
-    float, BeforeValidator(lambda text: text if isinstance(text, float) else parse_quantity(text, "1").si())
-]
-AnyQuantity = Annotated[
-    Quantity, BeforeValidator(lambda text: text if isinstance(text, Quantity) else parse_any_quantity(text))
-]
-
-
-class Strict(BaseModel):
-    """A table of which every key is known."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+from foparq.profile.elements import ElementSpec
+from foparq.profile.quantities import AnyQuantity, Length, Strict
 
 
 class CheckSpec(Strict):
@@ -42,20 +23,6 @@ class CheckSpec(Strict):
     tolerances: dict[str, AnyQuantity] = Field(default_factory=dict)
     file: str = ""  #: where the profile says so
     line: int = 0
-
-
-class ElementSpec(Strict):
-    """One required or reported quality element: ``[[element]]``."""
-
-    id: str  #: ``"Q1"``; one element may give several results (``Q1-X``, ``Q1-Y``, ``Q1-Z``)
-    kind: Literal["absolute", "trend", "relative", "normality", "faulty-rate", "found-rate", "commission", "omission"]
-    required: bool
-    applicable: bool = True  #: false: the class of product does not ask for it
-    limit: AnyQuantity | None = None
-    rules: tuple[str, ...] = ()  #: names; for ``faulty-rate`` and ``found-rate``
-    confidence: Share = 0.95  #: for tests
-    reference_share: Share | None = None  #: the reference must be better than this share of the limit
-    fewest: int = 2  #: observations below which nothing can be said
 
 
 class LimitsSpec(Strict):

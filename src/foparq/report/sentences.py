@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from functools import cache
 
 from foparq.check.catalogue import cards
-from foparq.evaluate.quality import Reason
+from foparq.evaluate.quality import Element, Reason
 from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, SetAside
 from foparq.findings.table import Findings
@@ -68,6 +68,17 @@ def _manuals() -> dict[str, str]:
 def reason_sentence(words: Words, reason: Reason) -> str:
     """Sentence of a reason of the evaluation: ``evaluate.ID`` with its fields."""
     return words(f"evaluate.{reason.message}", **dict(reason.fields))
+
+
+def element_title(words: Words, element: Element) -> str:
+    """Name of a quality element: the catalogue's for those of the specification, else that of its measure."""
+    return words.find(f"evaluate.element.{element.id}.title") or element_kind(words, element)
+
+
+def element_kind(words: Words, element: Element) -> str:
+    """Name of the ISO 19157 element, else of the measure; of one that could not be evaluated its id."""
+    known = words.find(f"report.element.{element.element}") or words.find(f"evaluate.measure.{element.measure_id}")
+    return known or printable(element.measure_name or element.id)
 
 
 def source_sentence(words: Words, source: Source) -> str:

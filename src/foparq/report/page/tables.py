@@ -11,7 +11,13 @@ from foparq.findings.table import Severity
 from foparq.model.delivery import Source, SourceStatus
 from foparq.report.page.findings import Group
 from foparq.report.record import AuditRecord
-from foparq.report.sentences import parameter_name, reason_sentence, source_sentence
+from foparq.report.sentences import (
+    element_kind,
+    element_title,
+    parameter_name,
+    reason_sentence,
+    source_sentence,
+)
 from foparq.report.words import Words, printable
 
 #: an element that leaves the question open
@@ -186,7 +192,7 @@ def open_elements(words: Words, record: AuditRecord) -> tuple[ElementView, ...]:
 
 
 def _element_view(words: Words, element: Element) -> ElementView:
-    kind = words(f"report.element.{element.element}")
+    kind = element_kind(words, element)
     sign = {"<=": "≤", ">=": "≥"}.get(element.comparison, element.comparison)
     limit = "" if element.limit is None else f"{sign} {words.quantity(element.limit, element.unit)}"
     parameters = [
@@ -194,7 +200,7 @@ def _element_view(words: Words, element: Element) -> ElementView:
     ]
     return ElementView(
         id=printable(element.id),
-        element=words.find(f"evaluate.element.{element.id}.title") or kind,
+        element=element_title(words, element),
         measure=f"{element.measure_name} ({element.measure_id})",
         scope=printable(element.scope),
         value="–" if element.value is None else words.quantity(element.value, element.unit),

@@ -13,13 +13,15 @@ from foparq.evaluate.balance import (
     unmapped,
 )
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
+from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
-from foparq.profile.schema import ElementSpec
+from foparq.profile.elements import OmissionSpec
 
 _MEASURE = "7"
 
 
-def omission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+@evaluates(OmissionSpec, measure=_MEASURE)
+def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
     """Missing required features over required ones, measure 7; the limit may be reached.
 
     Omissions that were accepted with evidence are shown in the net rate beside the gross one; the gross rate decides.
@@ -36,7 +38,7 @@ def omission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
 
     Parameters
     ----------
-    spec : ElementSpec
+    spec : OmissionSpec
     evidence : Evidence
 
     Returns
@@ -78,7 +80,7 @@ def omission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
     return (made,)
 
 
-def _judge(spec: ElementSpec, evidence: Evidence, every: tuple[Balance, ...], limit: float) -> Judgement:
+def _judge(spec: OmissionSpec, evidence: Evidence, every: tuple[Balance, ...], limit: float) -> Judgement:
     name = spec.id
     known = [row for row in every if row.gap is Gap.NONE]
     required, total = sum(row.required for row in known), sum(row.required for row in every)

@@ -8,20 +8,22 @@ import numpy as np
 from foparq.accuracy.differences import differences
 from foparq.accuracy.moments import moments
 from foparq.evaluate.evidence import Evidence, element, judged, limit_of
+from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters
 from foparq.model.tables import Checkpoints
-from foparq.profile.schema import ElementSpec
+from foparq.profile.elements import AbsoluteSpec
 
 AXES = ("X", "Y", "Z")
 
 
-def absolute(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+@evaluates(AbsoluteSpec, measure="39")
+def absolute(spec: AbsoluteSpec, evidence: Evidence) -> tuple[Element, ...]:
     """One result an axis: measure 39, strict ``<``.
 
     Parameters
     ----------
-    spec : ElementSpec
+    spec : AbsoluteSpec
     evidence : Evidence
 
     Returns
@@ -33,7 +35,7 @@ def absolute(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
     return tuple(_axis(spec, evidence, axis) for axis in range(len(AXES)))
 
 
-def _axis(spec: ElementSpec, evidence: Evidence, axis: int) -> Element:
+def _axis(spec: AbsoluteSpec, evidence: Evidence, axis: int) -> Element:
     id_ = f"{spec.id}-{AXES[axis]}"
     points, scope = evidence.delivery.checkpoints, evidence.files("checkpoints")
     limit, no_limit = limit_of(spec, evidence, "m", id_)

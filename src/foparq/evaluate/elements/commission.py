@@ -13,13 +13,15 @@ from foparq.evaluate.balance import (
     unmapped,
 )
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
+from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
-from foparq.profile.schema import ElementSpec
+from foparq.profile.elements import CommissionSpec
 
 _MEASURE = "3"
 
 
-def commission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+@evaluates(CommissionSpec, measure=_MEASURE)
+def commission(spec: CommissionSpec, evidence: Evidence) -> tuple[Element, ...]:
     """Surplus features over the required ones, measure 3; the limit may be reached.
 
     The share of the delivered features is given beside it.
@@ -36,7 +38,7 @@ def commission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
 
     Parameters
     ----------
-    spec : ElementSpec
+    spec : CommissionSpec
     evidence : Evidence
 
     Returns
@@ -74,7 +76,7 @@ def commission(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
     return (made,)
 
 
-def _judge(spec: ElementSpec, evidence: Evidence, every: tuple[Balance, ...], limit: float) -> Judgement:
+def _judge(spec: CommissionSpec, evidence: Evidence, every: tuple[Balance, ...], limit: float) -> Judgement:
     name = spec.id
     known = [row for row in every if row.gap is Gap.NONE]
     surplus, required = sum(row.surplus for row in known), sum(row.required for row in known)

@@ -7,19 +7,21 @@ from foparq.accuracy.differences import differences
 from foparq.accuracy.moments import moments
 from foparq.accuracy.normality import anderson_darling
 from foparq.evaluate.evidence import Evidence, Judgement, Parameters, element, judged
+from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
-from foparq.profile.schema import ElementSpec
+from foparq.profile.elements import NormalitySpec
 
 _MEASURE = "foparq:normality"
 _FEWEST = 3  #: two numbers are normal in one way only
 
 
-def normality(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+@evaluates(NormalitySpec, measure=_MEASURE)
+def normality(spec: NormalitySpec, evidence: Evidence) -> tuple[Element, ...]:
     """Anderson-Darling p of the distance differences; it must exceed ``1 - confidence``.
 
     Parameters
     ----------
-    spec : ElementSpec
+    spec : NormalitySpec
     evidence : Evidence
 
     Returns

@@ -4,19 +4,21 @@
 from foparq.accuracy.differences import differences
 from foparq.accuracy.moments import moments
 from foparq.evaluate.evidence import Evidence, element, judged, limit_of
+from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters
-from foparq.profile.schema import ElementSpec
+from foparq.profile.elements import RelativeSpec
 
 _MEASURE = "foparq:distance-rmse"
 
 
-def relative(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+@evaluates(RelativeSpec, measure=_MEASURE)
+def relative(spec: RelativeSpec, evidence: Evidence) -> tuple[Element, ...]:
     """RMSE of distances against the limit, strict ``<``.
 
     Parameters
     ----------
-    spec : ElementSpec
+    spec : RelativeSpec
     evidence : Evidence
 
     Returns

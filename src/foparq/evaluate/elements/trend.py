@@ -10,22 +10,24 @@ from foparq.accuracy.moments import Moments, moments
 from foparq.accuracy.normality import anderson_darling
 from foparq.accuracy.student import StudentTest, sign_test, student_test
 from foparq.columns import Reals
-from foparq.evaluate.absolute import AXES
+from foparq.evaluate.elements.absolute import AXES
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged
+from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
 from foparq.model.tables import Checkpoints
-from foparq.profile.schema import ElementSpec
+from foparq.profile.elements import TrendSpec
 
 _MEASURE = "foparq:trend"
 _FEWEST = 3  #: two differences have one degree of freedom: hardly any trend would show
 
 
-def trend(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+@evaluates(TrendSpec, measure=_MEASURE)
+def trend(spec: TrendSpec, evidence: Evidence) -> tuple[Element, ...]:
     """Student t of the mean difference of each axis; the absolute value of t must not exceed the critical value.
 
     Parameters
     ----------
-    spec : ElementSpec
+    spec : TrendSpec
     evidence : Evidence
 
     Returns
@@ -49,7 +51,7 @@ def trend(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
     return tuple(_axis(spec, points, scope, axis) for axis in range(len(AXES)))
 
 
-def _axis(spec: ElementSpec, points: Checkpoints, scope: str, axis: int) -> Element:
+def _axis(spec: TrendSpec, points: Checkpoints, scope: str, axis: int) -> Element:
     id_ = f"{spec.id}-{AXES[axis]}"
     every = differences(points.delivered[:, axis], points.surveyed[:, axis])
     known = every[np.isfinite(every)]

@@ -2,15 +2,17 @@
 """Logical consistency: which share of the features is at fault."""
 
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
+from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.tally import Tally, broken_reasons, iso_counts, judge_nothing, tally, unfit_remark
 from foparq.findings.because import Because
-from foparq.profile.schema import ElementSpec
+from foparq.profile.elements import FaultyRateSpec
 
 _MEASURE = "foparq:faulty-features"
 
 
-def faulty_rate(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+@evaluates(FaultyRateSpec, measure=_MEASURE)
+def faulty_rate(spec: FaultyRateSpec, evidence: Evidence) -> tuple[Element, ...]:
     """Distinct faulty features of the named rules over the features checked; the limit may be reached.
 
     The order of decisions:
@@ -26,7 +28,7 @@ def faulty_rate(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
 
     Parameters
     ----------
-    spec : ElementSpec
+    spec : FaultyRateSpec
     evidence : Evidence
 
     Returns
@@ -53,7 +55,7 @@ def faulty_rate(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
     return (made,)
 
 
-def _judge(spec: ElementSpec, evidence: Evidence, found: Tally, limit: float) -> Judgement:
+def _judge(spec: FaultyRateSpec, evidence: Evidence, found: Tally, limit: float) -> Judgement:
     name, broken = spec.id, broken_reasons(found, spec.id)
     rate = found.faulty / found.checked
     fields = {

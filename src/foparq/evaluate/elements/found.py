@@ -2,14 +2,16 @@
 """How many faults of one kind were found, per feature checked."""
 
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
+from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.measures import Measure, measure_counting, measures
 from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.tally import Tally, broken_reasons, iso_counts, judge_nothing, tally, unfit_remark
 from foparq.findings.because import Because
-from foparq.profile.schema import ElementSpec
+from foparq.profile.elements import FoundRateSpec
 
 
-def found_rate(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
+@evaluates(FoundRateSpec, measure="foparq:found-rate")
+def found_rate(spec: FoundRateSpec, evidence: Evidence) -> tuple[Element, ...]:
     """Faults of the named rules together over the features checked, or their number where the limit is a number.
 
     Measures 4, 11, 19, 23, 24 and 26 of ISO 19157 are counts: they name the result only where it is one, for a single
@@ -19,7 +21,7 @@ def found_rate(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
 
     Parameters
     ----------
-    spec : ElementSpec
+    spec : FoundRateSpec
     evidence : Evidence
 
     Returns
@@ -55,7 +57,7 @@ def found_rate(spec: ElementSpec, evidence: Evidence) -> tuple[Element, ...]:
     return (made,)
 
 
-def _measure(spec: ElementSpec, *, counting: bool) -> tuple[Measure, str | None]:
+def _measure(spec: FoundRateSpec, *, counting: bool) -> tuple[Measure, str | None]:
     """Measure of the result, and the data quality element that the rules speak of."""
     counts = [measure_counting(rule) for rule in spec.rules]
     kinds = {count.element for count in counts if count is not None}
@@ -65,7 +67,7 @@ def _measure(spec: ElementSpec, *, counting: bool) -> tuple[Measure, str | None]
     return measures()["foparq:found-count" if counting else "foparq:found-rate"], kind
 
 
-def _judge(spec: ElementSpec, evidence: Evidence, found: Tally, value: float, limit: float, unit: str) -> Judgement:
+def _judge(spec: FoundRateSpec, evidence: Evidence, found: Tally, value: float, limit: float, unit: str) -> Judgement:
     fields = {
         "element": spec.id, "found": found.found, "checked": found.checked, "value": (value, unit),
         "limit": (limit, unit),

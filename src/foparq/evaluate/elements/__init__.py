@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""What evaluates quality elements: one module a kind."""

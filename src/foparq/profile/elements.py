@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: MIT
+"""Quality elements of a product specification: ``[[element]]``, one type a kind.
+
+``kind`` says which keys an element has. A kind is declared by a class here and by what evaluates it in
+``foparq.evaluate.elements``; nothing else has to know it.
+"""
+
+from typing import ClassVar
+
+from foparq.profile.quantities import AnyQuantity, Share, Strict
+
+
+class ElementSpec(Strict):
+    """One required or reported quality element."""
+
+    KIND: ClassVar[str] = ""  #: as the profile writes it
+    KINDS: ClassVar[dict[str, type["ElementSpec"]]] = {}  #: every kind by name
+
+    id: str  #: ``"Q1"``; one element may give several results (``Q1-X``, ``Q1-Y``, ``Q1-Z``)
+    kind: str
+    required: bool
+    applicable: bool = True  #: false: the class of product does not ask for it
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **kwargs: object) -> None:
+        """Enter the kind; a class without one is shared by several."""
+        super().__pydantic_init_subclass__(**kwargs)
+        if cls.KIND:
+            ElementSpec.KINDS[cls.KIND] = cls
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """Names of the rules that it counts."""
+        return ()
+
+
+class LimitedSpec(ElementSpec):
+    """An element whose value has a limit, or is only reported."""
+
+    limit: AnyQuantity | None = None
+
+
+class SampledSpec(ElementSpec):
+    """An element of measured differences."""
+
+    confidence: Share = 0.95  #: of tests and bounds
+    fewest: int = 2  #: observations below which nothing can be said
+
+
+class ReferencedSpec(SampledSpec, LimitedSpec):
+    """An element whose differences are against a reference that has an accuracy of its own."""
+
+    reference_share: Share | None = None  #: the reference must be better than this share of the limit
+
+
+class AbsoluteSpec(ReferencedSpec):
+    """Absolute positional accuracy at checkpoints."""
+
+    KIND = "absolute"
+
+
+class RelativeSpec(ReferencedSpec):
+    """Relative positional accuracy of distances."""
+
+    KIND = "relative"
+
+
+class TrendSpec(SampledSpec):
+    """Trend of coordinate differences."""
+
+    KIND = "trend"
+
+
+class NormalitySpec(SampledSpec):
+    """Normality of distance differences."""
+
+    KIND = "normality"
+
+
+class RulesSpec(LimitedSpec):
+    """An element of what rules found."""
+
+    rules: tuple[str, ...] = ()  #: names
+
+    @property
+    def uses(self) -> tuple[str, ...]:
+        """The rules."""
+        return self.rules
+
+
+class FaultyRateSpec(RulesSpec):
+    """Share of the features that are at fault."""
+
+    KIND = "faulty-rate"
+
+
+class FoundRateSpec(RulesSpec):
+    """Faults of one kind, for each feature checked."""
+
+    KIND = "found-rate"
+
+
+class CommissionSpec(LimitedSpec):
+    """Delivered features that the list does not allow."""
+
+    KIND = "commission"
+
+
+class OmissionSpec(LimitedSpec):
+    """Specified features that are not drawn."""
+
+    KIND = "omission"

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+"""Values of profiles and manifests: quantities with units, and tables of which every key is known."""
+
+from typing import Annotated
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict
+
+from foparq.units import Quantity, parse_any_quantity, parse_quantity
+
+
+def _quantity(symbol: str) -> BeforeValidator:
+    return BeforeValidator(lambda text: text if isinstance(text, Quantity) else parse_quantity(text, symbol))
+
+
+Length = Annotated[Quantity, _quantity("m")]
+Area = Annotated[Quantity, _quantity("m2")]
+Share = Annotated[
+    float, BeforeValidator(lambda text: text if isinstance(text, float) else parse_quantity(text, "1").si())
+]
+AnyQuantity = Annotated[
+    Quantity, BeforeValidator(lambda text: text if isinstance(text, Quantity) else parse_any_quantity(text))
+]
+
+
+class Strict(BaseModel):
+    """A table of which every key is known."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
