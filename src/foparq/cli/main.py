@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The command group. Subcommands are loaded when they are called, so that ``--help`` answers at once."""
 
+import contextlib
+import errno
 import gettext
 import importlib
 import os
@@ -72,6 +74,7 @@ def run(arguments: Sequence[str]) -> int:
     say = Words(language)
     try:
         code = command_line(say).main(list(arguments), prog_name="foparq", standalone_mode=False, obj=asked)
+        sys.stdout.flush()
     except SystemExit:
         return Exit.PIPE  # the reader of a pipe left early, as `head` does: click ends so
     except BaseException as error:  # noqa: BLE001 - no traceback reaches a user
@@ -90,6 +93,9 @@ def _last_word(error: BaseException, say: Words) -> Exit:
     elif isinstance(error, FoparqError):
         code, text = _exit_of(error), f"{say('cli.error')}: {say.error(error)}"
     elif isinstance(error, OSError) and error.filename is None:  # standard output is full or gone
+        _give_up_output()
+        if error.errno == errno.EPIPE:
+            return Exit.PIPE
         why = say("cli.no-output", value=error.strerror or str(error))
         code, text = Exit.USAGE, f"{say('cli.error')}: {why}"
     else:
@@ -107,6 +113,14 @@ def _open_streams() -> None:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
+
+
+def _give_up_output() -> None:
+    """Lead standard output nowhere: what it still holds would be written, and fail again, at the very end."""
+    with contextlib.suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
 
 
 def _kept_traceback() -> str:
