@@ -20,8 +20,8 @@ from foparq.model.delivery import Delivery, Source, SourceStatus
 from foparq.profile.manifest import Manifest
 from foparq.profile.schema import LimitsSpec, Profile, ReadingSpec
 from foparq.read import delivery as module
-from foparq.read import paths
 from foparq.read.delivery import read_delivery, read_loose
+from foparq.read.guard import paths
 from foparq.read.guard.paths import inside
 from foparq.report.words import LANGUAGES, Words
 
