@@ -6,6 +6,9 @@ from pathlib import Path
 
 import pytest
 
+#: scripts run by hand; they import each other as neighbours
+collect_ignore = ["tools"]
+
 REPOSITORY = Path(__file__).resolve().parents[1]
 SHELF = Path(os.environ.get("FOPARQ_SHARED") or REPOSITORY.parent / "shared")
 #: whether somebody relies on the tests that read the shelf
