@@ -183,7 +183,7 @@ def parse_scale(text: object) -> float:
     """
     found = _SCALE.match(text) if isinstance(text, str) else None
     denominator = float(found["denominator"].replace(",", ".")) if found else 0.0
-    if denominator <= 0:
+    if not 0 < denominator < math.inf:
         raise QuantityError("quantity.not-a-scale", value=text, example="1:50")
     return denominator
 

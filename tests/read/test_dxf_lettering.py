@@ -121,3 +121,9 @@ def test_names_read_in_the_wrong_encoding(name: str) -> None:
     )
     assert doubly_encoded(spoilt, "cp1252")
     assert doubly_encoded(spoilt, "utf-8")
+
+
+@pytest.mark.parametrize("text", ["{" * 10**6, r"\S1" * 300_000, "1" + " " * 10**6 + "x", r"\M+1" * 250_000])
+def test_a_lettering_without_end_is_read_from_its_beginning_only(text: str) -> None:
+    assert len(plain_lettering(text)) <= 2_000
+    assert lettered_length(text) == (None, None)

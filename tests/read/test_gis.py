@@ -227,7 +227,7 @@ def test_a_companion_that_leads_elsewhere_is_refused(tmp_path: Path) -> None:
     path.with_suffix(".dbf").symlink_to(tmp_path / "a.dbf")
     with pytest.raises(UnsafeError) as caught:
         read(path)
-    assert (caught.value.message, caught.value.fields["file"]) == ("read.path-outside", "a.dbf")
+    assert (caught.value.message, caught.value.fields["key"]) == ("read.companion-outside", "a.dbf")
 
 
 def test_a_geojson(tmp_path: Path) -> None:

@@ -186,6 +186,8 @@ def text_cell(path: Path) -> None:
     """A cell of 300 MB in the column that names the layer."""
     lines_gpkg(path, layer=["x"])
     with sqlite3.connect(path) as connection:
+        for (name,) in connection.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
+            connection.execute(f'DROP TRIGGER "{name}"')
         connection.execute("UPDATE paredes SET layer = CAST(? AS TEXT)", (b"x" * 300_000_000,))
     connection.close()
 

@@ -69,7 +69,7 @@ def companion_capitals(path: Path) -> None:
     _companion(path, ".prj").with_suffix(".PRJ").symlink_to("/dev/zero")
 
 
-@drawing(suffix=".shp", exits=REFUSED)
+@drawing(suffix=".shp", exits=READ)
 def companion_sheet(path: Path) -> None:
     """A companion of a kind that GDAL looks for beside any file, linked to an endless device."""
     shapefile(path)
@@ -204,6 +204,7 @@ manifest("utf16", _drawn("").encode("utf-16"), WRONG)
 manifest("not_utf8", _drawn("").encode() + b'title = "\xff"\n', WRONG)
 manifest("mark", b"\xef\xbb\xbf" + _drawn("").encode(), READ)
 manifest("survey_sd_huge", _drawn('[checkpoints]\npath = "p.csv"\nsurvey_sd = "' + "9" * 5_000 + ' mm"'), (2, 4))
+manifest("long_profile", _drawn("").replace("scale", 'profile = "' + "x" * 5_000 + '"\nscale'), WRONG)
 manifest("folder", _drawn("").replace("a.dxf", "."), (2, 4))
 manifest("empty", "", (*READ, 2))
 

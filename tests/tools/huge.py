@@ -22,7 +22,7 @@ import drawings  # noqa: F401 - registers
 import hostile  # noqa: F401 - registers
 from inputs import INPUTS, Job
 
-MOST_MEGABYTES = 2_000
+MOST_MEGABYTES = 2_048
 
 
 @dataclass(frozen=True, slots=True)

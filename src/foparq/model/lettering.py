@@ -7,6 +7,7 @@ from foparq.units import LENGTHS
 
 _FOOT, _INCH = LENGTHS["ft"], LENGTHS["in"]
 _LONGEST = 40  #: characters; a longer text is a remark
+_LONGEST_RAW = 400  #: the same with decoration
 _QUOTES = str.maketrans(
     {"’": "'", "′": "'", "‘": "'", "`": "'", "”": '"', "″": '"', "“": '"', "–": "-", "−": "-", "\u00a0": " "}
 )
@@ -49,6 +50,8 @@ def lettered_length(text: str) -> tuple[float | None, float | None]:
     >>> lettered_length("2,50 m"), lettered_length("350")
     ((2.5, None), (None, 350.0))
     """
+    if len(text) > _LONGEST_RAW:  # the cost of the pattern grows with the square
+        return None, None
     cleaned = _DECORATION.sub("", text.translate(_QUOTES).strip())
     if not cleaned or len(cleaned) > _LONGEST:
         return None, None

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Profiles and manifests from files, with errors that name file, line, key, value and a right example."""
 
+import contextlib
 import hashlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -57,6 +58,8 @@ _EXAMPLES = {
     "title": 'title = "Estação"',
     "unit": 'unit = "m"',
 }
+
+_SHOWN = 80  #: letters of a wrong value that a message repeats
 
 _Model = TypeVar("_Model", bound=BaseModel)
 
@@ -141,15 +144,17 @@ def load_manifest(path: Path) -> Manifest:
 
 
 def _find(name: str, beside: Path | None) -> Path:
+    path = None
     if name.endswith(".toml"):
         path = (beside or Path()) / name
-        if path.is_file():
-            return path
-    else:
+    elif "/" not in name and "\\" not in name:
         path = shipped("rules") / "profiles" / f"{name}.toml"
-        if "/" not in name and "\\" not in name and path.is_file():
+    with contextlib.suppress(OSError):  # of a name that is longer than the file system allows
+        if path is not None and path.is_file():
             return path
-    raise ProfileError("profile.unknown", value=name, known=", ".join(shipped_profiles()), example="et-doc-foparq-a")
+    raise ProfileError(
+        "profile.unknown", value=name[:_SHOWN], known=", ".join(shipped_profiles()), example="et-doc-foparq-a"
+    )
 
 
 def _checks(text: TomlText) -> list[CheckSpec]:
@@ -221,7 +226,7 @@ def _validated(
         if first["type"] == "missing":
             raise kind("toml.missing-key", example=_EXAMPLES.get(key, f"{key} = ..."), **fields) from None
         example = _EXAMPLES.get(key, str(first["msg"]))
-        raise kind("toml.wrong-value", value=str(first["input"])[:80], example=example, **fields) from None
+        raise kind("toml.wrong-value", value=str(first["input"])[:_SHOWN], example=example, **fields) from None
 
 
 def _resolved(data: object, loc: Sequence[str | int], *, missing: bool) -> tuple[str | int, ...]:

@@ -20,7 +20,9 @@ def _known_scale(text: object) -> str:
     return str(text)
 
 
-Triple = tuple[float, float, float]
+#: no building is larger than its planet
+Ordinate = Annotated[float, Field(ge=-1e8, le=1e8, allow_inf_nan=False)]
+Triple = tuple[Ordinate, Ordinate, Ordinate]
 UnitName = Annotated[str, BeforeValidator(_known_unit)]
 ScaleText = Annotated[str, BeforeValidator(_known_scale)]
 

@@ -2,6 +2,7 @@
 """TOML with the line of every key, so that an error can say where."""
 
 import re
+import stat
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,6 +18,10 @@ _PLACE = re.compile(r"\(at line (\d+), column (\d+)\)")
 
 _SHOWN = 80  #: characters of a wrong line that a message repeats
 _MOST_BYTES = 1_000_000
+_DEEPEST = 32  #: tables and arrays within each other
+#: so many parts of a dotted key that its cost, which grows with their square, could be felt
+_CHAIN = re.compile(r"(?<![\w.\-])(?:(?:[\w\-]++|\"[^\"\n]*+\"|'[^'\n]*+')[ \t]*+\.[ \t]*+){" + str(_DEEPEST) + "}")
+_LONG_NUMBER = re.compile(r"[0-9_]{1000}")
 
 Place = tuple[str | int, ...]
 
@@ -56,22 +61,52 @@ def read_toml(path: Path, kind: type[UsageError]) -> TomlText:
         Of that kind: if the file cannot be read, is not UTF-8, or is not TOML.
     """
     try:
-        data_bytes = path.read_bytes()
-        if len(data_bytes) > _MOST_BYTES:
-            raise kind("toml.too-large", file=str(path), value=len(data_bytes), limit=_MOST_BYTES)
-        text = data_bytes.decode("utf-8-sig")
+        text = _bytes(path, kind).decode("utf-8-sig")
     except OSError as error:
         raise kind("toml.unreadable", file=str(path), value=error.strerror or str(error)) from None
     except UnicodeDecodeError as error:
         raise kind("toml.not-utf8", file=str(path), value=error.start) from None
+    if _CHAIN.search(text):
+        raise kind("toml.too-deep", file=str(path), limit=_DEEPEST)
     try:
         data = tomllib.loads(text)
+    except RecursionError:
+        raise kind("toml.too-deep", file=str(path), limit=_DEEPEST) from None
     except tomllib.TOMLDecodeError as error:
         found = _PLACE.search(str(error))
         line = int(found[1]) if found else len(text.splitlines())
         shown = text.splitlines()[line - 1].strip() if 0 < line <= len(text.splitlines()) else ""
         raise kind("toml.syntax", file=str(path), line=line, value=shown[:_SHOWN], example=_quoted(shown)) from None
+    except ValueError:
+        # Python turns no text of thousands of digits into a number.
+        long = _LONG_NUMBER.search(text)
+        line = text.count("\n", 0, long.start()) + 1 if long else 1
+        raise kind("toml.long-number", file=str(path), line=line) from None
+    if _depth(data) > _DEEPEST:
+        raise kind("toml.too-deep", file=str(path), limit=_DEEPEST)
     return TomlText(path, data, _index(text))
+
+
+def _bytes(path: Path, kind: type[UsageError]) -> bytes:
+    # A pipe would never end.
+    found = path.stat()
+    if not stat.S_ISREG(found.st_mode):
+        raise kind("toml.unreadable", file=str(path), value="not a regular file")
+    if found.st_size > _MOST_BYTES:
+        raise kind("toml.too-large", file=str(path), value=found.st_size, limit=_MOST_BYTES)
+    return path.read_bytes()
+
+
+def _depth(data: object) -> int:
+    """Greatest number of tables and arrays within each other."""
+    depth, level = 0, [data]
+    while level:
+        depth += 1
+        held: list[object] = []
+        for part in level:
+            held += part.values() if isinstance(part, dict) else part if isinstance(part, list) else ()
+        level = held
+    return depth
 
 
 def _quoted(line: str) -> str:

@@ -21,11 +21,11 @@ from foparq.model.plane import Plane, plane_of
 from foparq.model.tables import Checkpoints, Distances, FeatureList
 from foparq.profile.manifest import DrawingSection, Manifest, TableSection
 from foparq.profile.schema import Profile
-from foparq.read.dxf.reader import read_dxf
-from foparq.read.gis.reader import companions, read_gis
+from foparq.read.gis.companions import companions
 from foparq.read.guard.parent import guarded
-from foparq.read.guard.paths import MOST_FILES, files_of, fit_to_read, inside, sha256_of
+from foparq.read.guard.paths import MOST_FILES, files_of, fit_to_read, inside, name_of, sha256_of
 from foparq.read.guard.sniff import Format, format_of
+from foparq.read.guard.stage import sweep
 from foparq.read.raw import RawDrawing
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
 
@@ -33,6 +33,7 @@ Progress = Callable[[str], None]
 S = TypeVar("S", bound=TableSection)
 T = TypeVar("T", Checkpoints, Distances, FeatureList)
 
+_LONGEST = 300  #: letters of a path that are told
 _OUTPUT = frozenset({"audit"})  #: where ``foparq audit`` writes: not part of what was delivered
 
 
@@ -94,6 +95,7 @@ def read_delivery(
         If the profile's sagitta is meant at scale and no scale is given.
     """
     intake = _Intake(profile=profile, scale=scale, progress=progress)
+    sweep()
     if manifest_name:
         _manifest(intake, root, manifest_name)
     for section in manifest.drawing:
@@ -140,9 +142,11 @@ def read_loose(
         As for :func:`read_delivery`; the title is empty.
     """
     intake = _Intake(profile=profile, scale=scale, progress=progress)
+    sweep()
     for path in paths:
-        section = DrawingSection.model_validate({"path": path.as_posix(), "unit": unit, "plane": plane, "areas": areas})
-        _drawing(intake, section, path.as_posix(), path.resolve)
+        name = name_of(path.as_posix())
+        section = DrawingSection.model_validate({"path": name, "unit": unit, "plane": plane, "areas": areas})
+        _drawing(intake, section, name, path.resolve)
     return Delivery(title="", sources=tuple(intake.sources), parts=tuple(intake.drawings)), tuple(intake.crashes)
 
 
@@ -165,14 +169,20 @@ def read_drawing(path: Path, section: DrawingSection, profile: Profile, sagitta:
     FoparqError
         As the reader of the format does.
     """
+    # The child imports the reader of its file only.
     if format_of(path) is Format.DXF:
+        from foparq.read.dxf.reader import read_dxf  # noqa: PLC0415
+
         return read_dxf(path, limits=profile.limits, sagitta=sagitta, unit=section.unit, blocks=profile.reading.blocks)
+    from foparq.read.gis.reader import read_gis  # noqa: PLC0415
+
     return read_gis(path, limits=profile.limits, sagitta=sagitta, unit=section.unit, layers=section.layers)
 
 
 def _shown(named: str) -> str:
-    # As the manifest names it, with one kind of slash.
-    return PurePosixPath(named.replace("\\", "/")).as_posix()
+    # As the manifest names it, with one kind of slash; a name that no file can have is shortened.
+    shown = PurePosixPath(named.replace("\\", "/")).as_posix()
+    return shown if len(shown) <= _LONGEST else f"{shown[:_LONGEST]}..."
 
 
 def _manifest(intake: _Intake, root: Path, name: str) -> None:
@@ -225,7 +235,7 @@ def _drawing(intake: _Intake, section: DrawingSection, name: str, find: Callable
         intake.sources.append(replace(source, status=status, items=len(raw.items), skipped=raw.reading.skipped))
         intake.drawings.append(_joined(raw, section, name))
     if path is not None:
-        _companions(intake, name, path)
+        _companions(intake, name, path, limits.bytes)
 
 
 def _take_once(intake: _Intake, path: Path, name: str) -> None:
@@ -235,14 +245,18 @@ def _take_once(intake: _Intake, path: Path, name: str) -> None:
     intake.taken.add(path.resolve())
 
 
-def _companions(intake: _Intake, name: str, path: Path) -> None:
+def _companions(intake: _Intake, name: str, path: Path, limit: int) -> None:
     # A Shapefile is several files: what was read with it is hashed with it.
     if path.suffix.casefold() != ".shp" or not path.is_file():
         return
     folder = name.rpartition("/")[0]
-    for other in companions(path).values():
+    try:
+        beside = companions(path, limit)
+    except InputError:
+        return  # told of the drawing itself
+    for other in beside.values():
         intake.taken.add(other.resolve())
-        shown = f"{folder}/{other.name}" if folder else other.name
+        shown = name_of(f"{folder}/{other.name}" if folder else other.name)
         intake.sources.append(
             Source(
                 path=shown, role="other", sha256=sha256_of(other), bytes=other.stat().st_size, status=SourceStatus.READ
@@ -263,7 +277,8 @@ def _identified(source: Source, path: Path, limit: int) -> Source:
 
 def _refused(source: Source, name: str, message: str, fields: dict[str, object]) -> Source:
     # The name as the manifest writes it tells more than that of the file alone.
-    named = {**fields, "file": name}
+    said = {key: name_of(value) if isinstance(value, str) else value for key, value in fields.items()}
+    named = {**said, "file": name}
     return replace(source, status=SourceStatus.REFUSED, error=message, fields=tuple(sorted(named.items())))
 
 
@@ -323,7 +338,7 @@ def _unnamed(intake: _Intake, root: Path) -> None:
                 )
             )
             return
-        name = path.relative_to(root).as_posix()
+        name = name_of(path.relative_to(root).as_posix())
         link = path.is_symlink()
         if name in named or (not link and path.resolve() in intake.taken):
             continue

@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from foparq.errors import WriteError
+from foparq.read.guard.stage import mark, sweep
 from foparq.report.audit_json import write_audit_json, write_findings_jsonl
 from foparq.report.findings_gpkg import write_findings_gpkg
 from foparq.report.iso19157 import write_quality_xml
@@ -72,7 +73,8 @@ def write_reports(
         If a file cannot be written; an earlier report then stays as it was.
     """
     writable(folder)
-    aside = Path(tempfile.mkdtemp(prefix=".foparq-", dir=folder))
+    sweep(folder)
+    aside = Path(tempfile.mkdtemp(prefix=f".{mark()}", dir=folder))
     try:
         for name, writer in WRITERS.items():
             if progress is not None:

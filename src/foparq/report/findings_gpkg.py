@@ -4,7 +4,6 @@
 import errno
 import shutil
 import sqlite3
-import tempfile
 from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 
 from foparq.columns import Geometries, Index, Texts
 from foparq.findings.table import Severity
+from foparq.read.guard.stage import private_folder
 from foparq.report.audit_json import written_rows
 from foparq.report.places import places
 from foparq.report.record import AuditRecord
@@ -83,8 +83,8 @@ def write_findings_gpkg(record: AuditRecord, path: Path) -> None:
     ``record.written`` findings of each rule are written.
     """
     # GDAL takes no path with line breaks or undecodable letters: the file is made where the path is plain.
-    with tempfile.TemporaryDirectory(prefix="foparq-") as plain:
-        made = Path(plain) / "findings.gpkg"
+    with private_folder() as plain:
+        made = plain / "findings.gpkg"
         try:
             _write_database(record, made)
         except (pyogrio.errors.DataSourceError, pyogrio.errors.DataLayerError, sqlite3.Error) as error:

@@ -5,6 +5,7 @@ import gc
 import logging
 import mmap
 import re
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -89,8 +90,8 @@ def _sniff(path: Path, most_bytes: int) -> bool:
 def _second_sections(path: Path) -> tuple[Repair, ...]:
     # A reader takes the last of two sections of one name and forgets the first: half a drawing would pass for all.
     with path.open("rb") as stream, mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as text:
-        names = _SECTION.findall(text)
-    twice = sorted({name.decode("ascii", "replace") for name in names if names.count(name) > 1})
+        names = Counter(_SECTION.findall(text))
+    twice = sorted(name.decode("ascii", "replace") for name, count in names.items() if count > 1)
     return tuple(Repair(code="SECTION_TWICE", detail=f"section {name} occurs more than once") for name in twice)
 
 

@@ -9,6 +9,7 @@ from ezdxf.tools.text import fast_plain_mtext, plain_text
 
 _SURROGATE = re.compile("[\ud800-\udfff]")  #: stands for bytes that the encoding does not know
 _STACK = re.compile(r"\\S([^;^#/]*)[\^#/]([^;]*);")
+_LONGEST = 2_000  #: letters that are looked at; the cost of the patterns grows with their square
 _TOLERANCE_STACK = re.compile(r"\\S[^;^#/]*\^[^;]*;")
 
 
@@ -65,13 +66,13 @@ def override_text(text: str) -> str:
 
 
 def plain_lettering(text: str) -> str:
-    """Lettering without formatting codes; stacked fractions as ``1/2``, stacked tolerances left out."""
-    fractions = _STACK.sub(r" \1/\2", _TOLERANCE_STACK.sub("", text))
-    return " ".join(str(fast_plain_mtext(fractions)).split())
+    """Beginning of a lettering without formatting codes; stacked fractions as ``1/2``, stacked tolerances left out."""
+    fractions = _STACK.sub(r" \1/\2", _TOLERANCE_STACK.sub("", text[:_LONGEST]))
+    return " ".join(str(fast_plain_mtext(fractions)).split())[:_LONGEST]
 
 
 def rendered_text(entity: Any) -> str:  # noqa: ANN401 - ezdxf entities share no useful type
     """Lettering of a TEXT or MTEXT."""
     if entity.dxftype() == "MTEXT":
         return plain_lettering(entity.text)
-    return " ".join(plain_text(entity.dxf.text).split())
+    return " ".join(plain_text(entity.dxf.text[:_LONGEST]).split())

@@ -1,10 +1,6 @@
 # SPDX-License-Identifier: MIT
 """GeoPackage: plain tables of features, one by one."""
 
-import os
-import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,11 +16,11 @@ from foparq.read.gis.gpkg_curves import STRAIGHT, chords_of
 from foparq.read.gis.gpkg_safety import Contents, Table, inspect
 from foparq.read.gis.items import Layer, items_of
 from foparq.read.gis.layers import GDAL_ERRORS, Taken, first_line, hold, read_layer
+from foparq.read.guard.stage import staged
 
 _INSPECTION = 30.0  #: seconds to look at the register, far more than any honest one needs
 #: GDAL names its placeholder for "no table of features at all" so
 _PLACEHOLDER = "ogr_empty_table"
-_INTERPRETED = frozenset(':"?#%')  #: signs in a path that GDAL or SQLite would interpret
 _NOWHERE = (np.nan, np.nan, np.nan, np.nan)
 
 
@@ -69,7 +65,9 @@ def read_gpkg(path: Path, *, limits: LimitsSpec, sagitta: float, unit: str | Non
         if table.name not in asked and table.name != _PLACEHOLDER
     ]
     pieces: list[tuple[Items, str]] = []
-    with _named(path) as name:
+    # With its prefix, GDAL opens a GeoPackage as such or not at all.
+    with staged({"drawing.gpkg": path}) as link:
+        name = f"GPKG:{link}"
         for table in tables:
             if table.rows == 0:
                 continue
@@ -139,17 +137,3 @@ def _wanted(path: Path, contents: Contents, wanted: tuple[str, ...]) -> list[Tab
                 example=f'layers = ["{readable[0].name}"]',
             )
     return [by_name[key] for key in sorted({name.casefold() for name in wanted})]
-
-
-@contextmanager
-def _named(path: Path) -> Iterator[str]:
-    # With its prefix, GDAL opens a GeoPackage as such or not at all. Names with signs that it would interpret are
-    # reached through a link.
-    full = path.resolve()
-    if os.name == "nt" or not _INTERPRETED & set(str(full)):
-        yield f"GPKG:{full}"
-        return
-    with tempfile.TemporaryDirectory(prefix="foparq-") as folder:
-        link = Path(folder) / "drawing.gpkg"
-        link.symlink_to(full)
-        yield f"GPKG:{link}"

@@ -6,6 +6,8 @@ as a layer can keep a reader busy for ever. The file is therefore looked at firs
 and a deadline; only plain tables that are registered as layers are handed on.
 """
 
+import math
+import os
 import re
 import sqlite3
 import time
@@ -17,9 +19,11 @@ from urllib.parse import quote
 
 from foparq.errors import UnreadableError, UnsafeError
 from foparq.model.drawing import Skipped, SkippedReason
+from foparq.read.gis.items import LAYER_COLUMNS
 
 APPLICATION_IDS = {0x47504B47: "GPKG", 0x47503130: "GPKG 1.0", 0x47503131: "GPKG 1.1"}
 _STEPS = 1000  #: instructions of SQLite between two looks at the clock
+_MOST_TEXT = 100_000_000  #: bytes of all names of layers that rows of one table state
 _LONGEST_TEXT = 10_000_000  #: bytes of one value or statement while inspecting
 #: triggers that the standard and GDAL write into every file
 _USUAL_TRIGGER = re.compile(
@@ -87,7 +91,7 @@ def inspect(path: Path, *, seconds: float) -> Contents:
         if journal.exists() and journal.stat().st_size:
             raise UnreadableError("read.gpkg-journal", file=path.name, value=journal.name)
     with opened(path, seconds) as connection:
-        schema = _schema(connection)
+        schema = _schema(path.name, connection)
         if "gpkg_contents" not in schema.objects:
             raise UnreadableError("read.gpkg-no-register", file=path.name)
         programs = [held.name for key, held in schema.objects.items() if key.startswith("gpkg_") and held.is_program]
@@ -121,6 +125,7 @@ class _Object:
 class _Schema:
     """Everything in a database that could be read, and what could run."""
 
+    file: str
     connection: sqlite3.Connection
     objects: dict[str, _Object]  #: tables and views by name in small letters
     triggers: tuple[str, ...]
@@ -137,11 +142,11 @@ class _Schema:
         return self.connection.execute(f"PRAGMA table_xinfo({quoted(name)})").fetchall()
 
 
-def _schema(connection: sqlite3.Connection) -> _Schema:
+def _schema(file: str, connection: sqlite3.Connection) -> _Schema:
     # A trigger may have the name of a table: it must not hide it.
     found = connection.execute("SELECT name, type, sql FROM sqlite_master ORDER BY name").fetchall()
     objects = {_small(name): _Object(name, kind, sql or "") for name, kind, sql in found if kind in ("table", "view")}
-    return _Schema(connection, objects, tuple(name for name, kind, _ in found if kind == "trigger"))
+    return _Schema(file, connection, objects, tuple(name for name, kind, _ in found if kind == "trigger"))
 
 
 def _small(name: str) -> str:
@@ -175,7 +180,9 @@ def opened(path: Path, seconds: float, *, longest: int = _LONGEST_TEXT) -> Itera
     """
     deadline = time.monotonic() + seconds
     try:
-        with closing(sqlite3.connect(f"file:{quote(str(path.resolve()))}?mode=ro&immutable=1", uri=True)) as connection:
+        with closing(
+            sqlite3.connect(f"file:{quote(os.fsencode(path.resolve()))}?mode=ro&immutable=1", uri=True)
+        ) as connection:
             connection.set_progress_handler(lambda: int(time.monotonic() > deadline), _STEPS)
             connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, longest)
             connection.setlimit(sqlite3.SQLITE_LIMIT_ATTACHED, 0)
@@ -218,6 +225,7 @@ def _layers(schema: _Schema) -> tuple[list[Table], list[Skipped]]:
         organisation, code = systems.get(srs, ("none", srs))
         undefined = srs in _UNDEFINED or (organisation == "none" and code in _UNDEFINED)
         rows = schema.connection.execute(count).fetchone()[0]
+        _hold_texts(schema, name)
         tables.append(Table(name=name, column=column, geometry_type=kind, undefined_crs=undefined, rows=rows))
     return sorted(tables, key=lambda table: table.name), sorted(skipped, key=lambda record: record.layer)
 
@@ -236,6 +244,18 @@ def _reason(schema: _Schema, key: str, data_type: str, column: str) -> SkippedRe
         return SkippedReason.COMPUTED_TABLE
     known = {_small(str(row[1])) for row in columns}
     return None if _small(column) in known else SkippedReason.NO_GEOMETRY_COLUMN
+
+
+def _hold_texts(schema: _Schema, table: str) -> None:
+    # The text that names a layer is held in memory several times. A longer value than one may be is an error of SQLite.
+    for column in {str(row[1]) for row in schema.columns(table)} & set(LAYER_COLUMNS):
+        query = f"SELECT total(length({quoted(column)})) FROM {quoted(table)}"  # noqa: S608 - quoted
+        try:
+            (total,) = schema.connection.execute(query).fetchone()
+        except sqlite3.DataError:
+            total = math.inf
+        if total > _MOST_TEXT:
+            raise UnsafeError("read.cell-too-large", file=schema.file, key=f"{table}.{column}", limit=_MOST_TEXT)
 
 
 def _unlisted(schema: _Schema, layers: tuple[str, ...]) -> list[Skipped]:

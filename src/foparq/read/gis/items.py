@@ -11,6 +11,8 @@ from foparq.columns import Flags, Geometries, Index, Texts
 from foparq.model.drawing import Skipped, SkippedReason
 from foparq.model.items import Items, Role, no_items
 
+#: columns whose text is the layer of a row, as CAD programs export it
+LAYER_COLUMNS = ("layer", "Layer", "LAYER", "camada", "Camada", "CAMADA")
 _MULTI = 4  #: shapely's type ids from here on are collections
 _KINDS = np.array(
     ["Point", "LineString", "LineString", "Polygon", "Point", "LineString", "Polygon", "GeometryCollection"],

@@ -13,9 +13,8 @@ from foparq.columns import Flags
 from foparq.errors import UnsafeError
 from foparq.model.drawing import Skipped
 from foparq.model.items import Items
-from foparq.read.gis.items import Layer
+from foparq.read.gis.items import LAYER_COLUMNS, Layer
 
-_LAYER_COLUMNS = ("layer", "Layer", "LAYER", "camada", "Camada", "CAMADA")
 _PAPER_COLUMNS = ("PaperSpace", "paperspace", "PAPERSPACE")
 
 #: what GDAL raises about a broken file
@@ -64,12 +63,12 @@ def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, calle
     strict = {"where": "1 = 1", "IMMUTABLE": "YES", "NOLOCK": "YES", "LIST_ALL_TABLES": "NO"}
     options: dict[str, Any] = strict if name.startswith("GPKG:") else {}
     meta, fid, wkb, values = pyogrio.raw.read(
-        name, layer=layer, columns=[*_LAYER_COLUMNS, *_PAPER_COLUMNS], return_fids=True, max_features=most, **options
+        name, layer=layer, columns=[*LAYER_COLUMNS, *_PAPER_COLUMNS], return_fids=True, max_features=most, **options
     )
     if wkb is None:
         wkb = np.full(len(fid), None, dtype=object)
     columns = dict(zip(meta["fields"], values, strict=True))
-    own = next((columns[key] for key in _LAYER_COLUMNS if key in columns and columns[key].dtype == object), None)
+    own = next((columns[key] for key in LAYER_COLUMNS if key in columns and columns[key].dtype == object), None)
     paper = next((columns[key] for key in _PAPER_COLUMNS if key in columns), None)
     return Layer(
         name=called or str(layer), geometry_type=meta["geometry_type"] or "Unknown", fid=fid, wkb=wkb, layer=own,

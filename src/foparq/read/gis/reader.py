@@ -12,6 +12,8 @@ Rows become items by these rules:
 - Arcs become chords of the stated sagitta.
 """
 
+import mmap
+import re
 import warnings
 from collections import Counter
 from pathlib import Path
@@ -24,15 +26,19 @@ from foparq.errors import UnreadableError, UnsafeError
 from foparq.model.drawing import Reading, Skipped, SkippedReason
 from foparq.model.items import Items
 from foparq.profile.schema import LimitsSpec
+from foparq.read.gis.companions import companions
 from foparq.read.gis.crs import describe, unit_of
 from foparq.read.gis.gpkg import read_gpkg
 from foparq.read.gis.items import items_of, join_items
 from foparq.read.gis.layers import GDAL_ERRORS, Taken, first_line, hold, read_layer
+from foparq.read.guard.paths import name_of
 from foparq.read.guard.sniff import Format, format_of
+from foparq.read.guard.stage import staged
 from foparq.read.raw import RawDrawing, holds_drawing
 
-#: endings of the files that belong to a Shapefile, beside ``.shp``
-SHAPEFILE_ENDINGS = frozenset({".shx", ".dbf", ".prj", ".cpg", ".qix", ".qpj", ".sbn", ".sbx", ".qmd"})
+_READ = (".shx", ".dbf", ".prj", ".cpg")  #: companions that what is read depends on
+_MOST_COLUMNS = 2_000  #: as in SQLite, and so in a GeoPackage
+_JSON_NAME = re.compile(rb'"([^"\\]*+)"\s*+:')
 _SHX_HEADER, _SHX_RECORD = 100, 8  #: bytes
 _LONGEST_NAME = 40  #: letters of the name of an encoding
 
@@ -103,22 +109,8 @@ def _on_paper(items: Items) -> tuple[Skipped, ...]:
     )
 
 
-def companions(path: Path) -> dict[str, Path]:
-    """Files that belong to a Shapefile, by ending in small letters: ``{".dbf": ...}``."""
-    return {
-        other.suffix.casefold(): other
-        for other in sorted(path.parent.iterdir())
-        if other.stem == path.stem and other.suffix.casefold() in SHAPEFILE_ENDINGS and other.is_file()
-    }
-
-
 def _read_shapefile(path: Path, limits: LimitsSpec) -> Taken:
-    beside = companions(path)
-    for other in beside.values():
-        # GDAL would follow a link wherever it leads.
-        if other.resolve().parent != path.resolve().parent:
-            raise UnsafeError("read.path-outside", file=other.name, example=path.with_suffix(".dbf").name)
-        hold(path, "read.too-large", other.stat().st_size, limits.bytes)
+    beside = companions(path, limits.bytes)
     missing = [ending for ending in (".shx", ".dbf") if ending not in beside]
     if missing:
         raise UnreadableError(
@@ -129,9 +121,12 @@ def _read_shapefile(path: Path, limits: LimitsSpec) -> Taken:
     if ".cpg" in beside:
         with beside[".cpg"].open("rb") as stream:
             encoding = stream.read(_LONGEST_NAME).decode("ascii", "replace").strip()
-    return _single(
-        path, str(path.resolve()), limits, undefined=".prj" not in beside, version="ESRI Shapefile", encoding=encoding
-    )
+    # GDAL would open whatever else has a fitting name.
+    files = {"drawing.shp": path, **{f"drawing{ending}": beside[ending] for ending in _READ if ending in beside}}
+    with staged(files) as link:
+        return _single(
+            path, str(link), limits, undefined=".prj" not in beside, version="ESRI Shapefile", encoding=encoding
+        )
 
 
 def _same_rows(path: Path, beside: dict[str, Path]) -> None:
@@ -146,21 +141,32 @@ def _same_rows(path: Path, beside: dict[str, Path]) -> None:
         raise UnreadableError("read.shp-mismatch", file=path.name, value=shapes, other=rows)
 
 
+def _hold_names(path: Path) -> None:
+    # Every name of a property anywhere becomes a column of the whole table: the cost grows with the square.
+    names: set[bytes] = set()
+    with path.open("rb") as stream, mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as text:
+        for found in _JSON_NAME.finditer(text):
+            names.add(found[1])
+            if len(names) > _MOST_COLUMNS:
+                raise UnsafeError("read.too-many-columns", file=path.name, limit=_MOST_COLUMNS)
+
+
 def _read_geojson(path: Path, limits: LimitsSpec) -> Taken:
-    return _single(path, f"GeoJSON:{path.resolve()}", limits, undefined=False, version="GeoJSON", encoding="UTF-8")
+    _hold_names(path)
+    with staged({"drawing.geojson": path}) as link:
+        return _single(path, f"GeoJSON:{link}", limits, undefined=False, version="GeoJSON", encoding="UTF-8")
 
 
 def _single(path: Path, name: str, limits: LimitsSpec, *, undefined: bool, version: str, encoding: str) -> Taken:
     # Formats of one layer. One feature more than allowed is asked for, so that too many are noticed.
     try:
-        layer = read_layer(name, 0, limits.entities + 1, undefined=undefined, called=path.stem)
+        layer = read_layer(name, 0, limits.entities + 1, undefined=undefined, called=name_of(path.stem))
     except (GeometryError, *GDAL_ERRORS) as error:
         raise UnreadableError("read.gis-broken", file=path.name, value=first_line(error)) from None
     hold(path, "read.too-many-items", len(layer.fid), limits.entities)
     items, skipped = items_of(layer, prefix="")
-    return Taken(
-        pieces=((items, layer.system),), version=version, encoding=encoding, skipped=skipped, layers=(path.stem,)
-    )  # fmt: skip
+    pieces = ((items, layer.system),)
+    return Taken(pieces=pieces, version=version, encoding=encoding, skipped=skipped, layers=(layer.name,))
 
 
 def _bounds(items: Items) -> tuple[float, float, float, float]:

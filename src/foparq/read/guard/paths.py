@@ -10,7 +10,9 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from foparq.errors import UnreadableError, UnsafeError
 
 _SCHEME = re.compile(r"^[A-Za-z][A-Za-z0-9+.\-]*:")
-_CHUNK = 1 << 20
+_SURROGATE = re.compile("[\ud800-\udfff]")  #: stands for bytes that are no UTF-8
+_LONGEST = 4096  #: letters of a path
+_SHOWN = 80  #: letters of an odd path that a message repeats
 MOST_FILES = 10_000  #: files of a folder that are listed
 
 
@@ -37,10 +39,12 @@ def inside(root: Path, named: str) -> Path:
     example = "desenhos/fachada.dxf"
     if not named.strip() or any(ord(letter) < ord(" ") for letter in named):
         raise UnsafeError("read.path-odd", file=named, example=example)
-    if _SCHEME.match(named) or named.startswith(("/vsi", "<")):
+    if named.startswith(("/vsi", "<")):
         raise UnsafeError("read.path-address", file=named, example=example)
     if PurePosixPath(named).is_absolute() or PureWindowsPath(named).anchor:
         raise UnsafeError("read.path-absolute", file=named, example=example)
+    if len(named) > _LONGEST:
+        raise UnsafeError("read.path-odd", file=f"{named[:_SHOWN]}...", example=example)
     home = root.resolve()
     try:
         full = (home / named.replace("\\", "/")).resolve()
@@ -49,7 +53,19 @@ def inside(root: Path, named: str) -> Path:
         raise UnsafeError("read.path-outside", file=named, example=example) from None
     if not full.is_relative_to(home):
         raise UnsafeError("read.path-outside", file=named, example=example)
+    try:
+        there = full.exists()
+    except OSError:
+        # A part that is longer than any file system allows.
+        raise UnsafeError("read.path-odd", file=f"{named[:_SHOWN]}...", example=example) from None
+    if _SCHEME.match(named) and not there:
+        raise UnsafeError("read.path-address", file=named, example=example)
     return full
+
+
+def name_of(path: str) -> str:
+    """Path as text that can be printed and written: bytes that are no UTF-8 are shown as U+FFFD."""
+    return _SURROGATE.sub("\ufffd", path)
 
 
 def fit_to_read(path: Path, limit: int) -> int:
