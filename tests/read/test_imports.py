@@ -30,7 +30,7 @@ path = Path(sys.argv[1])
 child = guarded(modules, path, file="x", seconds=100, memory=10**9)
 drawings, crashes = delivery.read_loose(
     [path], profile=load_profile("et-doc-foparq-a"), scale=50.0, unit="m", plane=None)
-assert len(drawings.drawings) == 1 and not crashes
+assert len(drawings.parts) == 1 and not crashes
 reader_versions()
 parent = {name.split(".")[0] for name in sys.modules}
 watched = {"ezdxf", "pyogrio"}
