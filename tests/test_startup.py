@@ -59,7 +59,7 @@ def test_who_only_asks_waits_for_no_library(arguments: tuple[str, ...]) -> None:
 def test_a_check_without_reports_loads_no_writers_and_no_statistics(drawing: Path) -> None:
     modules = loaded("check", str(drawing), "--scale", "1:50")
     assert {"shapely", "pydantic"} <= modules
-    assert not modules & {"lxml", "jinja2", "rich", "scipy.stats", "foparq.report.files"}
+    assert not modules & {"lxml", "jinja2", "rich", "scipy.stats", "foparq.report.page.page", "foparq.report.iso19157"}
 
 
 @pytest.mark.parametrize("strict", [(), ("-W", "error")])

@@ -18,11 +18,11 @@ import pytest
 
 from foparq.cli.main import COMMANDS, run
 from foparq.profile.load import load_manifest
-from foparq.report import files
-from foparq.report.files import WRITERS
+from foparq.report.formats import WRITTEN
 from foparq.resources import shipped
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
+FILES = {form.file for form in WRITTEN}
 Command = Callable[..., tuple[int, str, str]]
 
 
@@ -249,7 +249,7 @@ def test_an_audit_writes_all_its_files_and_nothing_else(foparq: Command, tmp_pat
     folder = write_delivery(tmp_path / "d", MANIFEST, *CLEAN)
     before = {path: path.read_bytes() for path in folder.iterdir()}
     foparq("audit", folder)
-    assert {path.name for path in (folder / "audit").iterdir()} == set(WRITERS)
+    assert {path.name for path in (folder / "audit").iterdir()} == FILES
     assert {path: path.read_bytes() for path in before} == before, "the delivered bytes stay as they are"
 
 
@@ -257,7 +257,7 @@ def test_out_puts_the_reports_elsewhere(foparq: Command, tmp_path: Path) -> None
     folder = write_delivery(tmp_path / "d", MANIFEST, *CLEAN)
     foparq("audit", folder, "--out", tmp_path / "elsewhere" / "deep")
     assert not (folder / "audit").exists()
-    assert {path.name for path in (tmp_path / "elsewhere" / "deep").iterdir()} == set(WRITERS)
+    assert {path.name for path in (tmp_path / "elsewhere" / "deep").iterdir()} == FILES
 
 
 @pytest.mark.parametrize(
@@ -282,7 +282,7 @@ def test_a_full_disk_leaves_no_half_report(foparq: Command, tmp_path: Path, monk
         path.write_text("half")
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setitem(files.WRITERS, "report.html", full)
+    monkeypatch.setattr("foparq.report.page.page.write_page", full)
     code, _, err = foparq("audit", folder)
     assert code == 2
     assert "No space left" in err
@@ -330,7 +330,7 @@ def test_a_delivery_may_not_disguise_its_own_specification(foparq: Command, tmp_
 def test_folders_with_awkward_names(foparq: Command, tmp_path: Path, name: str) -> None:
     folder = write_delivery(tmp_path / name, MANIFEST, *CLEAN)
     assert foparq("audit", folder)[0] == 3
-    assert {path.name for path in (folder / "audit").iterdir()} == set(WRITERS)
+    assert {path.name for path in (folder / "audit").iterdir()} == FILES
 
 
 def test_a_folder_where_a_report_should_be_is_told_before_any_is_replaced(foparq: Command, tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ from foparq.model.drawing import Drawing
 from foparq.report.findings_gpkg import write_findings_gpkg
 from foparq.report.places import places
 from foparq.report.record import AuditRecord
-from foparq.report.sentences import finding_sentence
+from foparq.report.sentences import finding_sentences
 from foparq.report.words import Words
 
 Plant = Callable[..., Findings]
@@ -55,7 +55,8 @@ def test_three_layers_with_the_columns_in_order(rejected: AuditRecord, tmp_path:
 
 def test_every_finding_is_one_feature_where_it_lies(rejected: AuditRecord, tmp_path: Path) -> None:
     path = written(rejected, tmp_path)
-    words, findings = Words("pt-BR"), rejected.findings
+    findings = rejected.findings
+    sentences = finding_sentences(Words("pt-BR"), findings, np.arange(len(findings)))
     spots = places(findings.where)
     seen = {}
     for name, dimension in zip(LAYERS, (0, 1, 2), strict=True):
@@ -74,7 +75,7 @@ def test_every_finding_is_one_feature_where_it_lies(rejected: AuditRecord, tmp_p
             assert shapely.equals_exact(shapely.force_2d(shape), shapely.force_2d(where))
             assert shapely.has_z(where) <= shapely.has_z(shape)
             assert [row["x"], row["y"]] == spots[n, :2].tolist()
-        assert row["reason"] == row["message"] == finding_sentence(words, findings, n)
+        assert row["reason"] == row["message"] == sentences[n]
         assert row["featid"] == row["item"] == findings.item[n]
         assert row["severity"] == findings.severity[n]
         assert bool(row["waived"]) is False

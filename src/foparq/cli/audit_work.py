@@ -20,5 +20,5 @@ def audit_work(say: Words, *, asked: str | None, delivery: Path, out: Path | Non
     with progress_on_stderr(say) as progress:
         done = audit(delivery, language=asked, otherwise=say.language, progress=progress)
         written = write_reports(done.record, done.log, folder, progress)
-    show(done.record, form, say, written)
-    return int(exit_of(done.record.quality))
+    show(written.record, form, say, written.paths)
+    return int(exit_of(written.record.quality))

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """What ``foparq check`` does."""
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
+
+import click
 
 from foparq.audit import check_files
 from foparq.check.catalogue import cards, find_card
@@ -15,6 +16,8 @@ from foparq.errors import UsageError
 from foparq.profile.adjust import choose, with_settings
 from foparq.profile.load import load_profile
 from foparq.profile.schema import Profile
+from foparq.report.files import Written, writable, write_reports
+from foparq.report.harmless import log_text
 from foparq.report.words import Words
 from foparq.units import parse_length_unit, parse_scale
 
@@ -34,19 +37,19 @@ def check_work(
     if unit is not None:
         parse_length_unit(unit)
     if out is not None:
-        from foparq.report.files import writable, write_reports  # noqa: PLC0415 - only where reports are written
-
         writable(out)
     with progress_on_stderr(say) as progress:
         done = check_files(
             files, profile=chosen, scale=parse_scale(stated), unit=unit, plane=plane, areas=areas,
             language=say.language, progress=progress,
         )  # fmt: skip
-        written = write_reports(done.record, done.log, out, progress) if out is not None else []
-    show(done.record, form, say, written)
-    if out is None:
-        sys.stderr.writelines(f"{trace}\n" for trace in done.log)
-    return int(exit_of(done.record.quality))
+        written = Written(record=done.record, paths=(), log=done.log)
+        if out is not None:
+            written = write_reports(done.record, done.log, out, progress)
+    show(written.record, form, say, written.paths)
+    if out is None and written.log:
+        click.echo(log_text(written.log), err=True)
+    return int(exit_of(written.record.quality))
 
 
 def _profile(name: str, select: Sequence[str], ignore: Sequence[str], settings: Sequence[str]) -> Profile:

@@ -8,9 +8,9 @@ from contextlib import contextmanager
 
 import click
 
+from foparq.report.formats import SHOWN
 from foparq.report.words import LANGUAGES, Words
 
-FORMATS = ("text", "concise", "json", "jsonl", "csv")
 _PATIENCE = 1.0  #: seconds before progress is shown
 
 
@@ -19,7 +19,7 @@ def language_option(say: Words) -> click.Option:
     return click.Option(["--lang"], type=click.Choice(LANGUAGES), expose_value=False, help=say("cli.option.lang"))
 
 
-def format_option(say: Words, formats: tuple[str, ...] = FORMATS) -> click.Option:
+def format_option(say: Words, formats: tuple[str, ...] = SHOWN) -> click.Option:
     """``--format``."""
     return click.Option(
         ["--format", "form"],

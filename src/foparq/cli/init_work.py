@@ -126,5 +126,6 @@ def _comment(text: str) -> list[str]:
 
 
 def _quoted(text: str) -> str:
-    # A JSON string is a TOML basic string; DEL alone must be escaped by hand.
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+    """TOML basic string, letters that are not printable as escapes; surrogates have none."""
+    string = json.dumps(text, ensure_ascii=False)
+    return "".join(c if c.isprintable() or "\ud800" <= c <= "\udfff" else f"\\U{ord(c):08x}" for c in string)

@@ -15,6 +15,7 @@ import click
 from foparq import __version__
 from foparq.cli.exits import Exit
 from foparq.errors import FoparqError, InputError, UsageError, WriteError
+from foparq.report.harmless import log_text
 from foparq.report.words import LANGUAGES, Words, language_of
 from foparq.resources import shipped
 
@@ -131,7 +132,7 @@ def _kept_traceback() -> str:
     with tempfile.NamedTemporaryFile(
         "w", prefix="foparq-crash-", suffix=".log", delete=False, encoding="utf-8"
     ) as stream:
-        stream.write(traceback.format_exc())
+        stream.write(log_text([traceback.format_exc()]))
     return stream.name
 
 

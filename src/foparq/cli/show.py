@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the terminal shows of a finished audit."""
 
-import json
 import os
 import shutil
 from collections.abc import Sequence
@@ -14,8 +13,10 @@ import numpy as np
 from foparq.evaluate.quality import Element, Verdict
 from foparq.findings.table import Severity
 from foparq.model.delivery import LOST, SourceStatus
-from foparq.report.audit_json import audit_json, findings_csv, findings_jsonl, findings_rows
+from foparq.report.files import text_of
+from foparq.report.formats import format_named
 from foparq.report.record import AuditRecord
+from foparq.report.rows import finding_rows
 from foparq.report.sentences import aside_sentence, element_title, outcome_because, reason_sentence, source_sentence
 from foparq.report.words import Words, printable
 
@@ -31,19 +32,15 @@ def show(record: AuditRecord, form: str, say: Words, written: Sequence[Path]) ->
     ----------
     record : AuditRecord
     form : str
-        ``"text"``, ``"concise"``, ``"json"``, ``"jsonl"`` or ``"csv"``.
+        Name of a format that can be shown.
     say : Words
         Language of the terminal.
     written : sequence of Path
         Report files, named at the end of the text.
     """
-    if form == "json":
-        click.echo(json.dumps(audit_json(record), ensure_ascii=False, indent=2))
-    elif form == "jsonl":
-        for line in findings_jsonl(record):
-            click.echo(line)
-    elif form == "csv":
-        click.echo(findings_csv(record), nl=False)
+    if not (chosen := format_named(form)).terminal:
+        for text in text_of(record, chosen):
+            click.echo(text, nl=False)
     elif form == "concise":
         _concise(record, say)
     else:
@@ -54,7 +51,7 @@ def show(record: AuditRecord, form: str, say: Words, written: Sequence[Path]) ->
 
 
 def _concise(record: AuditRecord, say: Words) -> None:
-    for row in findings_rows(record):
+    for row in finding_rows(record):
         place = "" if row["where"] is None else " ({})".format(", ".join(f"{value:.4f}" for value in row["where"]))
         parts = [printable(str(part)) for part in (row["source"], row["layer"], row["handle"]) if part]
         click.echo(f"{':'.join(parts)}: {row['rule']} {row['name']} {_size(say, row['size'], row['unit'])}{place}")
@@ -112,7 +109,7 @@ def _element(element: Element, say: Words) -> None:
 
 def _findings(record: AuditRecord, say: Words) -> None:
     table = record.findings
-    rows = list(findings_rows(record, say))
+    rows = list(finding_rows(record, say))
     several = len(record.delivery.drawings) > 1
     for severity in Severity:
         names = sorted(set(table.name[table.severity == severity].tolist()))

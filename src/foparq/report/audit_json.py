@@ -1,36 +1,25 @@
 # SPDX-License-Identifier: MIT
-"""The run as JSON: ``audit.json`` and ``findings.jsonl``, and the findings as CSV."""
+"""The run as JSON: ``audit.json``."""
 
-import csv
-import io
-import json
-import math
 from collections import Counter
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from foparq import __version__
-from foparq.columns import Index
 from foparq.evaluate.quality import Element, Reason, Verdict
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import Source
-from foparq.report.places import places
+from foparq.report.harmless import json_lines
 from foparq.report.record import AuditRecord
-from foparq.report.sentences import finding_sentence, reason_sentence, source_sentence
+from foparq.report.rows import number, written_rows
+from foparq.report.sentences import reason_sentence, source_sentence
 from foparq.report.words import Words
 
 SCHEMA = "foparq-audit/1"
 #: of deliveries and of loose files alike
 _CONCLUSIONS = {Verdict.ACCEPTED: "clean", Verdict.REJECTED: "faulty", Verdict.UNDECIDED: "open"}
-
-#: columns of ``findings.jsonl`` and of the CSV, in order
-COLUMNS = (
-    "key", "rule", "name", "severity", "source", "layer", "item", "handle", "inserts", "other", "where", "size", "unit",
-    "limit", "message", "waived",
-)  # fmt: skip
 
 
 def audit_json(record: AuditRecord) -> dict[str, Any]:
@@ -61,6 +50,7 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         "inputs": [_source(words, source) for source in record.delivery.sources],
         "elements": [_element(words, element) for element in record.quality.elements],
         "checks": [_outcome(outcome) for outcome in record.outcomes],
+        "crashed": list(record.crashed),
         "findings": {
             "total": len(record.findings),
             "written": len(written_rows(record)),
@@ -69,88 +59,16 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
     }
 
 
-def write_audit_json(record: AuditRecord, path: Path) -> None:
-    """Write ``audit.json``."""
-    path.write_text(json.dumps(audit_json(record), ensure_ascii=False, indent=2) + "\n", encoding="utf-8")
-
-
-def write_findings_jsonl(record: AuditRecord, path: Path) -> None:
-    """Write ``findings.jsonl``: one finding a line."""
-    with path.open("w", encoding="utf-8") as stream:
-        for line in findings_jsonl(record):
-            stream.write(line + "\n")
-
-
-def findings_jsonl(record: AuditRecord) -> Iterator[str]:
-    """Findings as JSON, one a line."""
-    for row in findings_rows(record):
-        yield json.dumps(row, ensure_ascii=False)
-
-
-def findings_csv(record: AuditRecord) -> str:
-    """Findings as CSV; a text that a spreadsheet would take for a formula is quoted with an apostrophe."""
-    stream = io.StringIO()
-    columns = [name for name in COLUMNS if name != "where"]
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow([*columns[:10], "x", "y", "z", *columns[10:]])
-    for row in findings_rows(record):
-        place = row["where"] or [None, None, None]
-        cells = [row[name] for name in columns]
-        writer.writerow([_inert(cell) for cell in [*cells[:10], *place, *cells[10:]]])
-    return stream.getvalue()
-
-
-def findings_rows(record: AuditRecord, words: Words | None = None) -> Iterator[dict[str, Any]]:
-    """Findings as JSON values, those that are written in full; sentences in the language of the record or as given."""
-    words = words or Words(record.language)
-    table = record.findings
-    points = places(table.where)
-    for n in written_rows(record).tolist():
-        place = points[n]
-        yield {
-            "key": table.key[n],
-            "rule": table.rule[n],
-            "name": table.name[n],
-            "severity": table.severity[n],
-            "source": table.source[n],
-            "layer": table.layer[n],
-            "item": table.item[n],
-            "handle": table.handle[n],
-            "inserts": table.inserts[n],
-            "other": table.other[n] or None,
-            "where": None if math.isnan(place[0]) else [round(float(value), 9) for value in np.nan_to_num(place)],
-            "size": _number(table.size[n]),
-            "unit": table.unit[n],
-            "limit": _number(table.limit[n]),
-            "message": finding_sentence(words, table, n),
-            "waived": bool(table.waived[n]),
-        }
-
-
-def written_rows(record: AuditRecord) -> Index:
-    """Rows of the findings that are written in full: at most ``record.written`` of each rule."""
-    table = record.findings
-    if len(table) <= record.written:
-        return np.arange(len(table))
-    kept = [np.flatnonzero(table.rule == code)[: record.written] for code in np.unique(table.rule.astype(str))]
-    return np.sort(np.concatenate(kept))
-
-
-def _inert(cell: object) -> object:
-    if isinstance(cell, str) and cell.startswith(("=", "+", "-", "@", "\t", "\r")):
-        return f"'{cell}"
-    return cell
-
-
-def _number(value: float) -> float | None:
-    return None if math.isnan(value) or math.isinf(value) else float(value)
+def audit_json_lines(record: AuditRecord) -> Iterator[str]:
+    """``audit.json``, line by line."""
+    yield from json_lines(audit_json(record))
 
 
 def _value(value: object) -> object:
     if isinstance(value, tuple | list):
         return [_value(part) for part in value]
     if isinstance(value, float):
-        return _number(value)
+        return number(value)
     if isinstance(value, np.generic):
         return _value(value.item())
     return value if isinstance(value, str | int | bool | None) else str(value)
@@ -190,17 +108,17 @@ def _element(words: Words, element: Element) -> dict[str, Any]:
         "element": element.element,
         "measure": {"id": element.measure_id, "name": element.measure_name},
         "scope": element.scope,
-        "value": None if element.value is None else _number(element.value),
+        "value": None if element.value is None else number(element.value),
         "unit": element.unit,
         "comparison": element.comparison,
-        "limit": None if element.limit is None else _number(element.limit),
+        "limit": None if element.limit is None else number(element.limit),
         "n": element.n,
         "required": element.required,
         "status": element.status.value,
         "why": [_reason(words, reason) for reason in element.why],
         "parameters": _parameters(element.parameters),
         "method": element.method,
-        "details": [{"name": name, "found": _number(found), "of": _number(of)} for name, found, of in element.details],
+        "details": [{"name": name, "found": number(found), "of": number(of)} for name, found, of in element.details],
     }
 
 
@@ -224,4 +142,4 @@ def _outcome(outcome: Outcome) -> dict[str, Any]:
 
 
 def _parameters(parameters: tuple[tuple[str, float, str], ...]) -> dict[str, Any]:
-    return {name: {"value": _number(value), "unit": unit} for name, value, unit in parameters}
+    return {name: {"value": number(value), "unit": unit} for name, value, unit in parameters}

@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from foparq.columns import Geometries, Index, Texts
 from foparq.findings.table import Severity
 from foparq.read.guard.stage import private_folder
-from foparq.report.audit_json import written_rows
 from foparq.report.places import places
 from foparq.report.record import AuditRecord
-from foparq.report.sentences import finding_sentence
+from foparq.report.rows import written_rows
+from foparq.report.sentences import finding_sentences
 from foparq.report.templates import environment
 from foparq.report.words import Words, printable
 
@@ -103,7 +103,7 @@ def _write_database(record: AuditRecord, path: Path) -> None:
         layers.append((layer.name, *_of_one_type(shapes[chosen], layer), own))
     try:
         _write_layers(path, layers, _shared_crs(record))
-    except pyogrio.errors.CRSError:
+    except (pyogrio.errors.CRSError, UnicodeError):
         # The file names a system that GDAL does not know.
         path.unlink(missing_ok=True)
         _write_layers(path, layers, UNDEFINED)
@@ -119,8 +119,7 @@ def _columns(record: AuditRecord, rows: Index) -> dict[str, NDArray[Any]]:
     words = Words(record.language)
     findings = record.findings
     spots = places(findings.where[rows])
-    sentences = np.empty(len(rows), dtype=object)
-    sentences[:] = [finding_sentence(words, findings, row) for row in rows.tolist()]
+    sentences = np.array(finding_sentences(words, findings, rows), dtype=object)
     return {
         "reason": sentences,
         "featid": _texts(findings.item[rows]),

@@ -27,4 +27,5 @@ class AuditRecord:
     started: str = ""  #: ISO 8601, UTC
     versions: dict[str, str] = field(default_factory=dict)  #: foparq, GEOS, GDAL, ezdxf ...
     written: int = 100_000  #: findings written in full per rule; counting is never capped
+    crashed: tuple[str, ...] = ()  #: files of reports that foparq failed to make
     norms: tuple[str, ...] = ()  #: what the profile cites, with dates

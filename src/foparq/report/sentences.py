@@ -3,8 +3,12 @@
 
 from collections.abc import Iterable
 from functools import cache
+from string import Formatter
+
+import numpy as np
 
 from foparq.check.catalogue import cards
+from foparq.columns import Index
 from foparq.evaluate.quality import Element, Reason
 from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, SetAside
@@ -16,39 +20,70 @@ from foparq.report.words import Words, printable
 _MEASURE = "measure-"  #: a count that has an ISO 19157 measure of its own
 
 
-def finding_sentence(words: Words, findings: Findings, n: int) -> str:
-    """What was found, in one sentence.
+def finding_sentences(words: Words, findings: Findings, rows: Index) -> list[str]:
+    """What was found, one sentence a finding.
 
     Parameters
     ----------
     words : Words
     findings : Findings
-    n : int
-        Row.
+    rows : (k,) int
+        Rows of the findings.
 
     Returns
     -------
-    str
+    list of str, k
         ``rules.CODE.finding`` with ``size``, ``limit`` (quantities), ``layer``, ``item``, ``handle``, ``other``,
         ``inserts`` and ``source`` filled in.
 
     Raises
     ------
     KeyError
-        If the rule has no sentence in this language.
+        If a rule has no sentence in this language, or its sentence names another field.
     """
-    unit = str(findings.unit[n])
-    return words(
-        f"rules.{findings.rule[n]}.finding",
-        size=(float(findings.size[n]), unit),
-        limit=(float(findings.limit[n]), unit),
-        layer=findings.layer[n],
-        item=findings.item[n],
-        handle=findings.handle[n],
-        other=findings.other[n],
-        inserts=findings.inserts[n],
-        source=findings.source[n],
-    )
+    made = np.empty(len(rows), dtype=object)
+    codes = findings.rule[rows]
+    for code in dict.fromkeys(codes.tolist()):
+        mine = np.flatnonzero(codes == code)
+        made[mine] = _filled(words, f"rules.{code}.finding", findings, rows[mine])
+    sentences: list[str] = made.tolist()
+    return sentences
+
+
+def _filled(words: Words, message: str, findings: Findings, rows: Index) -> list[str]:
+    text = words.find(message)
+    if text is None:
+        raise KeyError(f"no message {message!r} in {words.language}")
+    template, fields = _positional(text)
+    columns = [_column(words, findings, field, rows) for field in fields]
+    return list(map(template.format, *columns)) if columns else [template.format()] * len(rows)
+
+
+@cache
+def _positional(text: str) -> tuple[str, tuple[str, ...]]:
+    """A sentence with its fields numbered, and their names in that order."""
+    pieces: list[str] = []
+    fields: list[str] = []
+    for literal, field, form, _ in Formatter().parse(text):
+        pieces.append(literal.replace("{", "{{").replace("}", "}}"))
+        if field is not None:
+            pieces.append(f"{{:{form}}}" if form else "{}")
+            fields.append(field)
+    return "".join(pieces), tuple(fields)
+
+
+def _column(words: Words, findings: Findings, field: str, rows: Index) -> list[str]:
+    if field not in _FIELDS:
+        raise KeyError(field)
+    values = getattr(findings, field)[rows].tolist()
+    if field in _TEXTS:
+        return [printable(str(value)) for value in values]
+    quantity = cache(words.quantity)  # a limit is the same for all
+    return [quantity(value, unit) for value, unit in zip(values, findings.unit[rows].tolist(), strict=True)]
+
+
+_TEXTS = frozenset({"layer", "item", "handle", "other", "inserts", "source"})
+_FIELDS = _TEXTS | {"size", "limit"}
 
 
 def rule_meaning(words: Words, code: str) -> str:

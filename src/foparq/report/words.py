@@ -125,10 +125,7 @@ def _write(words: Words, value: object) -> str:
 
 def printable(text: str) -> str:
     """Text of a delivery made safe to show: control and bidirectional characters as escapes."""
-    return "".join(c if c.isprintable() and c not in _BIDI else f"\\u{ord(c):04x}" for c in text)
-
-
-_BIDI = frozenset("\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
+    return text if text.isprintable() else "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in text)
 
 
 def language_of(asked: str | None = None) -> str:

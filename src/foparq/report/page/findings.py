@@ -13,7 +13,7 @@ from foparq.model.drawing import Drawing
 from foparq.report.page.drawing import Picture, marks_at
 from foparq.report.places import places
 from foparq.report.record import AuditRecord
-from foparq.report.sentences import finding_sentence, outcome_scope, parameters_sentence, rule_meaning
+from foparq.report.sentences import finding_sentences, outcome_scope, parameters_sentence, rule_meaning
 from foparq.report.words import Words, printable
 
 WRITTEN = 500  #: findings of one rule that the page lists
@@ -173,7 +173,11 @@ def group_view(words: Words, listing: Listing, group: Group, suffix: str) -> Gro
     suffix : str
         What distinguishes the anchors of this language.
     """
-    rows = tuple(_row_view(words, listing, row, group.first + n, suffix) for n, row in enumerate(group.shown.tolist()))
+    sentences = finding_sentences(words, listing.findings, group.shown)
+    rows = tuple(
+        _row_view(words, listing, row, group.first + n, suffix, sentences[n])
+        for n, row in enumerate(group.shown.tolist())
+    )
     many_files = len({row.source for row in rows}) > 1
     held = {name for name in ("place", "layer", "handle", "other") if any(getattr(row, name) for row in rows)}
     if many_files:
@@ -220,6 +224,8 @@ def mark_views(words: Words, listing: Listing, picture: Picture, suffix: str) ->
     findings = listing.findings
     numbered = [(group.first + n, row) for group in listing.groups for n, row in enumerate(group.shown.tolist())]
     mine = [(number, row) for number, row in numbered if _has_mark(listing, picture, row)]
+    rows = np.array([row for _, row in mine], dtype=np.intp)
+    sentences = dict(zip(rows.tolist(), finding_sentences(words, findings, rows), strict=True))
     marks = []
     for number, row in sorted(mine, key=lambda pair: (-_RANK[findings.severity[pair[1]]], pair[0])):
         x, y = picture.cells(listing.sheet[row : row + 1])[0]
@@ -229,7 +235,7 @@ def mark_views(words: Words, listing: Listing, picture: Picture, suffix: str) ->
             number=words.count(number),
             rule=words(f"rules.{findings.rule[row]}.title"),
             layer=findings.layer[row] or "–",
-            sentence=finding_sentence(words, findings, row),
+            sentence=sentences[row],
         )
         marks.append(
             MarkView(
@@ -257,7 +263,7 @@ def _window(findings: Findings, picture: Picture, row: int) -> int:
     return min(int(np.ceil(half / picture.quantum)), picture.width // 2)
 
 
-def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str) -> RowView:
+def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str, sentence: str) -> RowView:
     findings = listing.findings
     name = listing.names[row]
     marked = bool(np.isfinite(listing.sheet[row]).all()) and findings.source[row] in listing.drawings
@@ -275,7 +281,7 @@ def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str
         other=printable(str(findings.other[row])),
         size="" if counted_once or not np.isfinite(size) else words.quantity(size, str(findings.unit[row])),
         severity=str(findings.severity[row]),
-        sentence=finding_sentence(words, findings, row),
+        sentence=sentence,
         waived=bool(findings.waived[row]),
     )
 
