@@ -12,7 +12,8 @@ from foparq.findings.table import Findings, Severity, join_findings
 from foparq.model.drawing import Drawing
 from foparq.report.page import findings as module
 from foparq.report.page.drawing import picture_of
-from foparq.report.page.findings import group_findings, group_view, listing_of, mark_views, shown_rows
+from foparq.report.page.findings import group_findings, group_view, listing_of, shown_rows
+from foparq.report.page.marks import mark_views
 from foparq.report.record import AuditRecord
 from foparq.report.words import Words
 

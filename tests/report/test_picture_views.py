@@ -11,7 +11,8 @@ import shapely
 from foparq.findings.table import Findings
 from foparq.model.drawing import Drawing
 from foparq.report.page.drawing import picture_of
-from foparq.report.page.findings import group_view, listing_of, mark_views
+from foparq.report.page.findings import group_view, listing_of
+from foparq.report.page.marks import mark_views
 from foparq.report.page.page import _bar
 from foparq.report.record import AuditRecord
 from foparq.report.words import Words

@@ -6,7 +6,6 @@ import shutil
 import sqlite3
 from collections.abc import Sequence
 from contextlib import closing
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,13 +16,12 @@ import shapely
 from numpy.typing import NDArray
 
 from foparq.columns import Geometries, Index, Texts
-from foparq.findings.table import Severity
 from foparq.read.guard.stage import private_folder
 from foparq.report.places import places
+from foparq.report.qgis_styles import LAYERS, FlagLayer, add_styles
 from foparq.report.record import AuditRecord
 from foparq.report.rows import written_rows
 from foparq.report.sentences import finding_sentences
-from foparq.report.templates import environment
 from foparq.report.words import Words, printable
 
 #: axes without a place on the Earth: GeoPackage reserves srs_id -1 for it (OGC 12-128, requirement 11)
@@ -32,37 +30,6 @@ UNDEFINED = (
     'AXIS["(E)",east,ORDER[1],LENGTHUNIT["metre",1]],AXIS["(N)",north,ORDER[2],LENGTHUNIT["metre",1]]]'
 )
 
-#: severity, shape of its mark in QGIS and colour: red for faults, blue for notes
-_MARKS = (
-    (Severity.CRITICAL, "diamond", "128,0,0,255"),
-    (Severity.MAJOR, "triangle", "200,20,20,255"),
-    (Severity.MINOR, "circle", "220,80,20,255"),
-    (Severity.NOTE, "square", "30,90,160,255"),
-)
-
-_STYLES_TABLE = """
-CREATE TABLE layer_styles (
-  id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, f_table_catalog TEXT(256), f_table_schema TEXT(256),
-  f_table_name TEXT(256), f_geometry_column TEXT(256), styleName TEXT(30), styleQML TEXT, styleSLD TEXT,
-  useAsDefault BOOLEAN, description TEXT, owner TEXT(30), ui TEXT(30), update_time DATETIME
-)"""
-
-
-@dataclass(frozen=True, slots=True)
-class _Layer:
-    name: str
-    single: str
-    multi: str
-    symbol: str  #: QGIS symbol type
-    placement: int  #: of labels: around the point, along the line, over the area
-    geometry_type: int  #: QGIS geometry type
-
-
-_LAYERS = (
-    _Layer("flags_p", "Point", "MultiPoint", "marker", 0, 0),
-    _Layer("flags_l", "LineString", "MultiLineString", "line", 2, 1),
-    _Layer("flags_a", "Polygon", "MultiPolygon", "fill", 1, 2),
-)
 _DIMENSION_OF_TYPE = np.array([0, 1, 1, 2, 0, 1, 2], dtype=np.intp)  # by shapely type id, collections apart
 
 
@@ -97,7 +64,7 @@ def _write_database(record: AuditRecord, path: Path) -> None:
     shapes, dimension = _by_dimension(record.findings.where[rows])
     columns = _columns(record, rows)
     layers = []
-    for n, layer in enumerate(_LAYERS):
+    for n, layer in enumerate(LAYERS):
         chosen = dimension == n
         own = {name: column[chosen] for name, column in columns.items()}
         layers.append((layer.name, *_of_one_type(shapes[chosen], layer), own))
@@ -108,7 +75,7 @@ def _write_database(record: AuditRecord, path: Path) -> None:
         path.unlink(missing_ok=True)
         _write_layers(path, layers, UNDEFINED)
     with closing(sqlite3.connect(path)) as database:
-        _add_styles(database, record, list(columns))
+        add_styles(database, record.language, list(columns), _moment(record))
         # The moment of the audit, not of writing: the same audit gives the same file.
         database.execute("UPDATE gpkg_contents SET last_change = ?", (_moment(record),))
         database.commit()
@@ -171,7 +138,7 @@ def _highest(collection: shapely.Geometry) -> shapely.Geometry | None:
     return (shapely.multipoints, shapely.multilinestrings, shapely.multipolygons)[dimension.max()](best)
 
 
-def _of_one_type(shapes: Geometries, layer: _Layer) -> tuple[Geometries, str]:
+def _of_one_type(shapes: Geometries, layer: FlagLayer) -> tuple[Geometries, str]:
     """Geometries all single or all multi, all with or all without depth, and the name of that type."""
     present = shapes[shapely.get_type_id(shapes) >= 0]
     deep = bool(shapely.has_z(present).any())
@@ -218,38 +185,3 @@ def _shared_crs(record: AuditRecord) -> str:
 def _moment(record: AuditRecord) -> str:
     """Time of the audit as GeoPackage writes it."""
     return (record.started[:19] or "1970-01-01T00:00:00") + ".000Z"
-
-
-def _add_styles(database: sqlite3.Connection, record: AuditRecord, columns: Sequence[str]) -> None:
-    words = Words(record.language)
-    template = environment("style").get_template("flags.qml.j2")
-    marks = [
-        {
-            "severity": severity.value,
-            "label": words(f"report.severity.{severity.value}"),
-            "shape": shape,
-            "colour": colour,
-        }
-        for severity, shape, colour in _MARKS
-    ]
-    named = [{"name": name, "alias": words(f"report.column.{name}")} for name in columns]
-    moment = _moment(record)
-    database.execute(_STYLES_TABLE)
-    database.execute(
-        "INSERT INTO gpkg_contents (table_name, data_type, identifier, last_change) VALUES (?, 'attributes', ?, ?)",
-        ("layer_styles", "layer_styles", moment),
-    )
-    for layer in _LAYERS:
-        style = template.render(
-            marks=marks,
-            kind=layer.symbol,
-            columns=named,
-            placement=layer.placement,
-            geometry_type=layer.geometry_type,
-        )
-        database.execute(
-            "INSERT INTO layer_styles (f_table_catalog, f_table_schema, f_table_name, f_geometry_column, styleName,"
-            " styleQML, styleSLD, useAsDefault, description, owner, update_time)"
-            " VALUES ('', '', ?, 'geom', 'foparq', ?, '', 1, ?, '', ?)",
-            (layer.name, style, words("report.gpkg.style"), moment),
-        )

@@ -12,6 +12,7 @@ from foparq.columns import Flags, Geometries, Index, Reals, Texts
 from foparq.findings.table import Findings, Severity
 from foparq.model.drawing import Drawing
 from foparq.model.items import Role
+from foparq.report.page.frame import beyond, frame, without_strays
 from foparq.report.page.paths import (
     FARTHEST,
     Strokes,
@@ -31,7 +32,6 @@ EXACT_VERTICES = 250_000  #: vertices up to which linework is drawn as lines
 RASTER = 2000  #: pixels across where it is drawn as tones of grey
 GROUPS = 300  #: layers that are drawn each by itself
 _NEAR = 1 / 300  #: of the width of the picture: what counts as around a finding
-_FLATTEST, _TALLEST = 3.2, 1.25  # width over height of the picture
 _SOFT: frozenset[str] = frozenset({Role.ANNOTATION, Role.HATCH, Role.SURFACE})
 
 
@@ -106,11 +106,11 @@ def picture_of(drawing: Drawing, number: int, findings: Findings, shown: Index) 
     sheet = findings.sheet[mine]
     model = drawing.items.geometry.copy()
     model[drawing.items.paper] = None
-    exact, strays = _without_strays(strokes_of(model, drawing.plane, metres))
+    exact, strays = without_strays(strokes_of(model, drawing.plane, metres))
     visible = drawing.visible_rows()
     soft = _is_one_of(drawing.items.role, _SOFT)
     linework = exact.take((visible & ~soft)[exact.owner])
-    corner, size = _frame(linework if len(linework.points) else exact, sheet)
+    corner, size = frame(linework if len(linework.points) else exact, sheet)
     quantum = float(10.0 ** np.floor(np.log10(size.max() / 50_000)))
     form, strokes = _within_bounds(exact, len(model), float(size[0]) / PIXELS / 10)
 
@@ -134,7 +134,7 @@ def picture_of(drawing: Drawing, number: int, findings: Findings, shown: Index) 
         bands=path(strokes_of(_of_dimension(faults, 1), None, 1.0)),
         areas=path(strokes_of(_of_dimension(faults, 2), None, 1.0)),
         layers=_layer_counts(drawing, findings),
-        outside=strays + _beyond(exact, corner, size),
+        outside=strays + beyond(exact, corner, size),
         hidden=int(np.sum(~visible & ~drawing.items.paper)),
         paper=int(np.sum(drawing.items.paper)),
     )
@@ -160,36 +160,6 @@ def marks_at(sheet: Geometries) -> Reals:
     areas = np.isin(kind, (3, 6)) & shapely.is_valid(sheet) & np.isfinite(points[:, 0])  # one or several
     points[areas] = shapely.get_coordinates(shapely.point_on_surface(sheet[areas]))
     return points
-
-
-def _without_strays(strokes: Strokes) -> tuple[Strokes, int]:
-    # One entity a thousand kilometres away would make the facade a dot.
-    if not len(strokes.points):
-        return strokes, 0
-    low, high = np.quantile(strokes.points, [0.01, 0.99], axis=0)
-    reach = 5 * max(float((high - low).max()), 1e-9)
-    far = ((strokes.points < low - reach) | (strokes.points > high + reach)).any(axis=1)
-    stray = np.zeros(len(strokes.owner), dtype=bool)
-    stray[strokes.stroke[far]] = True
-    if stray.all():
-        return strokes, 0
-    return strokes.take(~stray), len(np.unique(strokes.owner[stray]))
-
-
-def _frame(strokes: Strokes, sheet: Geometries) -> tuple[Reals, Reals]:
-    """Upper left corner (2,) and size (2,) of the picture, metres, with a margin and a bounded shape."""
-    points = strokes.points
-    if not len(points):
-        points = strokes_of(sheet, None, 1.0).points
-    if not len(points):
-        points = np.zeros((1, 2))
-    low, high = points.min(axis=0), points.max(axis=0)
-    extent = high - low
-    size = np.maximum(extent * 1.06, max(float(extent.max()) * 0.02, 1e-6))
-    size[0] = max(size[0], size[1] * _TALLEST)
-    size[1] = max(size[1], size[0] / _FLATTEST)
-    middle = (low + high) / 2
-    return np.array([middle[0] - size[0] / 2, middle[1] + size[1] / 2]), size
 
 
 def _within_bounds(strokes: Strokes, items: int, tolerance: float) -> tuple[str, Strokes]:
@@ -255,17 +225,6 @@ def _few(strokes: Strokes) -> Strokes:
     """The first strokes that hold a fifth of the bound of vertices."""
     room = np.cumsum(np.bincount(strokes.stroke, minlength=len(strokes.owner))) <= EXACT_VERTICES // 5
     return strokes.take(room)
-
-
-def _beyond(strokes: Strokes, corner: Reals, size: Reals) -> int:
-    """Items that lie wholly outside the picture."""
-    if not len(strokes.points):
-        return 0
-    start = np.flatnonzero(np.diff(strokes.stroke, prepend=-1))
-    low, high = np.minimum.reduceat(strokes.points, start), np.maximum.reduceat(strokes.points, start)
-    left, top = corner
-    seen = (high[:, 0] >= left) & (low[:, 0] <= left + size[0]) & (low[:, 1] <= top) & (high[:, 1] >= top - size[1])
-    return len(np.setdiff1d(strokes.owner, strokes.owner[seen]))
 
 
 def _is_one_of(texts: Texts, wanted: frozenset[str]) -> Flags:

@@ -10,7 +10,7 @@ from foparq.columns import Index, Reals
 from foparq.findings.outcome import Outcome
 from foparq.findings.table import Findings, Severity
 from foparq.model.drawing import Drawing
-from foparq.report.page.drawing import Picture, marks_at
+from foparq.report.page.drawing import marks_at
 from foparq.report.places import places
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import finding_sentences, outcome_scope, parameters_sentence, rule_meaning
@@ -18,7 +18,7 @@ from foparq.report.words import Words, printable
 
 WRITTEN = 500  #: findings of one rule that the page lists
 IN_ALL = 3000  #: findings that the page lists before every rule gets less
-_RANK = {severity.value: rank for rank, severity in enumerate(Severity)}
+RANK = {severity.value: rank for rank, severity in enumerate(Severity)}  #: 0 is gravest
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,24 +79,10 @@ class GroupView:
     columns: frozenset[str]  #: columns that hold anything
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MarkView:
-    """One mark on one drawing in one language."""
-
-    anchor: str
-    row: str  #: anchor of the row in the list
-    number: int
-    severity: str
-    x: int  #: cells
-    y: int
-    window: int  #: half the width of the view that shows it well, cells
-    title: str
-
-
 def group_findings(record: AuditRecord) -> tuple[Group, ...]:
     """Findings by rule: faults before notes, the gravest and most frequent first."""
     findings = record.findings
-    rank = np.fromiter((_RANK[value] for value in findings.severity), dtype=np.intp, count=len(findings))
+    rank = np.fromiter((RANK[value] for value in findings.severity), dtype=np.intp, count=len(findings))
     by_rule = {code: np.flatnonzero(findings.rule == code) for code in sorted(set(findings.rule))}
     ordered = sorted(by_rule, key=lambda code: (rank[by_rule[code]].min(), -len(by_rule[code]), code))
     each = WRITTEN if len(findings) <= IN_ALL else min(WRITTEN, max(50, IN_ALL // len(ordered)))
@@ -217,50 +203,6 @@ def tally(words: Words, run: Outcome) -> str:
         checked=words.count(run.checked),
         rate=(len(run.faulty) / run.checked if run.checked else 0.0, "1"),
     )
-
-
-def mark_views(words: Words, listing: Listing, picture: Picture, suffix: str) -> tuple[MarkView, ...]:
-    """Marks of one drawing, notes first so that faults lie on top."""
-    findings = listing.findings
-    numbered = [(group.first + n, row) for group in listing.groups for n, row in enumerate(group.shown.tolist())]
-    mine = [(number, row) for number, row in numbered if _has_mark(listing, picture, row)]
-    rows = np.array([row for _, row in mine], dtype=np.intp)
-    sentences = dict(zip(rows.tolist(), finding_sentences(words, findings, rows), strict=True))
-    marks = []
-    for number, row in sorted(mine, key=lambda pair: (-_RANK[findings.severity[pair[1]]], pair[0])):
-        x, y = picture.cells(listing.sheet[row : row + 1])[0]
-        name = listing.names[row]
-        title = words(
-            "report.drawing.mark",
-            number=words.count(number),
-            rule=words(f"rules.{findings.rule[row]}.title"),
-            layer=findings.layer[row] or "–",
-            sentence=sentences[row],
-        )
-        marks.append(
-            MarkView(
-                anchor=f"m-{name}{suffix}",
-                row=f"f-{name}{suffix}",
-                number=number,
-                severity=str(findings.severity[row]),
-                x=int(x),
-                y=int(y),
-                window=_window(findings, picture, row),
-                title=title,
-            )
-        )
-    return tuple(marks)
-
-
-def _has_mark(listing: Listing, picture: Picture, row: int) -> bool:
-    return listing.findings.source[row] == picture.drawing.path and bool(np.isfinite(listing.sheet[row]).all())
-
-
-def _window(findings: Findings, picture: Picture, row: int) -> int:
-    left, low, right, high = findings.sheet[row].bounds
-    size = float(findings.size[row]) if findings.unit[row] == "m" and np.isfinite(findings.size[row]) else 0.0
-    half = max(1.5 * max(right - left, high - low), 25 * size, picture.width * picture.quantum / 400)
-    return min(int(np.ceil(half / picture.quantum)), picture.width // 2)
 
 
 def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str, sentence: str) -> RowView:

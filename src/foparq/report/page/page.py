@@ -13,7 +13,8 @@ import numpy as np
 from foparq.findings.table import Severity
 from foparq.report.page.coverage import Coverage, coverage
 from foparq.report.page.drawing import GROUPS, Picture, picture_of
-from foparq.report.page.findings import GroupView, Listing, MarkView, group_view, listing_of, mark_views, shown_rows
+from foparq.report.page.findings import GroupView, Listing, group_view, listing_of, shown_rows
+from foparq.report.page.marks import MarkView, mark_views
 from foparq.report.page.tables import ElementView, Headline, InputView, element_views, headline, input_views
 from foparq.report.record import AuditRecord
 from foparq.report.templates import environment, shipped_text
