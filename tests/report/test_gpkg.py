@@ -18,7 +18,6 @@ from pyogrio.raw import read
 from foparq.findings.table import Findings, join_findings
 from foparq.model.drawing import Drawing
 from foparq.report.findings_gpkg import write_findings_gpkg
-from foparq.report.places import places
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import finding_sentences
 from foparq.report.words import Words
@@ -57,7 +56,7 @@ def test_every_finding_is_one_feature_where_it_lies(rejected: AuditRecord, tmp_p
     path = written(rejected, tmp_path)
     findings = rejected.findings
     sentences = finding_sentences(Words("pt-BR"), findings, np.arange(len(findings)))
-    spots = places(findings.where)
+    spots = findings.place
     seen = {}
     for name, dimension in zip(LAYERS, (0, 1, 2), strict=True):
         columns, shapes, _ = layer(path, name)

@@ -22,7 +22,6 @@ from foparq.report.page.drawing import EXACT_VERTICES, GROUPS, Picture, marks_at
 from foparq.report.page.page import bar_text, page
 from foparq.report.page.paths import Strokes, density, merged_dots, path_data, simplify, strokes_of
 from foparq.report.page.png import grey_png
-from foparq.report.places import places
 from foparq.report.record import AuditRecord
 from foparq.report.words import Words
 
@@ -143,7 +142,8 @@ def test_coordinates_that_are_no_numbers_are_not_drawn(drawing: Drawing) -> None
         bad = [shapely.LineString([(0, 0), (x, 1)]) for x in (float("nan"), float("inf"), 1.0)]
     one = picture(replace(drawing, items=items_of(bad), plane=plane_of("xy", np.array(bad[2:], dtype=object))))
     assert [len(drawn(path.path)) for path in one.paths] == [1]
-    assert np.isfinite(marks_at(np.array(bad, dtype=object))).all(axis=1).tolist() == [False, False, True]
+    marks = marks_at(np.array(bad, dtype=object))
+    assert marks.tolist() == [[0, 0], [0, 0], [0.5, 0.5]], "on the one vertex that lies anywhere"
 
 
 def test_one_stray_entity_does_not_make_the_drawing_a_dot(drawing: Drawing) -> None:
@@ -246,24 +246,6 @@ def test_marks_stand_on_points_along_lines_and_inside_areas() -> None:
     assert horseshoe.contains(shapely.Point(marks[2]))
     assert np.isfinite(marks[3]).all()
     assert np.isnan(marks[4:]).all()
-
-
-def test_places_are_mean_vertices() -> None:
-    shapes = np.array(
-        [
-            shapely.Point(1, 2, 3),
-            shapely.LineString([(0, 0, 0), (2, 4, 6)]),
-            shapely.Point(7, 8),
-            shapely.Point(),
-            None,
-        ],
-        dtype=object,
-    )
-    found = places(shapes)
-    assert found[:2].tolist() == [[1, 2, 3], [1, 2, 3]]
-    assert found[2, :2].tolist() == [7, 8]
-    assert np.isnan(found[2, 2])
-    assert np.isnan(found[3:]).all()
 
 
 @pytest.mark.parametrize(

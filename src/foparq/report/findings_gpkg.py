@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from foparq.columns import Geometries, Index, Texts
 from foparq.read.guard.stage import private_folder
-from foparq.report.places import places
 from foparq.report.qgis_styles import LAYERS, FlagLayer, add_styles
 from foparq.report.record import AuditRecord
 from foparq.report.rows import written_rows
@@ -85,7 +84,7 @@ def _write_database(record: AuditRecord, path: Path) -> None:
 def _columns(record: AuditRecord, rows: Index) -> dict[str, NDArray[Any]]:
     words = Words(record.language)
     findings = record.findings
-    spots = places(findings.where[rows])
+    spots = findings.place[rows]
     sentences = np.array(finding_sentences(words, findings, rows), dtype=object)
     return {
         "reason": sentences,

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from foparq.columns import Index, Reals
-from foparq.report.places import places
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import finding_sentences
 from foparq.report.words import Words
@@ -45,7 +44,7 @@ def finding_columns(record: AuditRecord, words: Words | None = None) -> dict[str
     """
     table, rows = record.findings, written_rows(record)
     made: dict[str, Sequence[Any]] = {
-        "where": _points(places(table.where[rows])),
+        "where": _points(table.place[rows]),
         "other": [other or None for other in table.other[rows].tolist()],
         "size": _numbers(table.size[rows]),
         "limit": _numbers(table.limit[rows]),

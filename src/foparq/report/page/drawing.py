@@ -10,6 +10,7 @@ import shapely
 
 from foparq.columns import Flags, Geometries, Index, Reals, Texts
 from foparq.findings.table import Findings, Severity
+from foparq.geom.places import place_on
 from foparq.model.drawing import Drawing
 from foparq.model.items import Role
 from foparq.report.page.frame import beyond, frame, without_strays
@@ -24,7 +25,6 @@ from foparq.report.page.paths import (
     to_cells,
 )
 from foparq.report.page.png import grey_png
-from foparq.report.places import places
 
 PIXELS = 1000  #: width of the overview for which the picture is made
 EXACT_ITEMS = 20_000  #: items up to which linework is drawn as it is
@@ -141,25 +141,11 @@ def picture_of(drawing: Drawing, number: int, findings: Findings, shown: Index) 
 
 
 def marks_at(sheet: Geometries) -> Reals:
-    """Where the mark of every finding stands: on the point, halfway along the line, inside the area.
+    """Where the mark of every finding stands (n, 2), metres on the sheet; NaN without a place.
 
-    Parameters
-    ----------
-    sheet : (n,) shapely geometries
-        Places in the drawing's plane, metres; ``None`` or empty if the finding has none.
-
-    Returns
-    -------
-    (n, 2) float
-        Metres; NaN without a place.
+    It is the place of the finding, which is chosen on the sheet.
     """
-    points = places(sheet)[:, :2]
-    kind = shapely.get_type_id(sheet)
-    lines = np.isin(kind, (1, 2)) & np.isfinite(points[:, 0])  # line or ring
-    points[lines] = shapely.get_coordinates(shapely.line_interpolate_point(sheet[lines], 0.5, normalized=True))
-    areas = np.isin(kind, (3, 6)) & shapely.is_valid(sheet) & np.isfinite(points[:, 0])  # one or several
-    points[areas] = shapely.get_coordinates(shapely.point_on_surface(sheet[areas]))
-    return points
+    return place_on(sheet)[:, :2]
 
 
 def _within_bounds(strokes: Strokes, items: int, tolerance: float) -> tuple[str, Strokes]:

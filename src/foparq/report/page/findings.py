@@ -11,7 +11,6 @@ from foparq.findings.outcome import Outcome
 from foparq.findings.table import Findings, Severity
 from foparq.model.drawing import Drawing
 from foparq.report.page.drawing import marks_at
-from foparq.report.places import places
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import finding_sentences, outcome_scope, parameters_sentence, rule_meaning
 from foparq.report.words import Words, printable
@@ -142,7 +141,7 @@ def listing_of(record: AuditRecord) -> Listing:
         findings=findings,
         groups=groups,
         names=anchors(findings, shown_rows(groups)),
-        spots=places(findings.where),
+        spots=findings.place,
         sheet=marks_at(findings.sheet),
         drawings={drawing.path: drawing for drawing in record.delivery.drawings},
     )
