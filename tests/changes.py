@@ -28,6 +28,7 @@ class Change:
     forth: Callable[[Any], Any]
     back: Callable[[Geometries], Geometries] = lambda places: places
     rounds: bool = False  #: coordinates are rounded
+    turns: bool = False  #: what was lowest or leftmost no longer is
     redraws: bool = False  #: vertices come in another order
     reorders: bool = False  #: rows come in another order
 
@@ -83,8 +84,9 @@ def _by_geometry(change: Callable[[Geometries], Geometries]) -> Callable[[Any], 
     return forth
 
 
-def _motion(forth: Move, back: Move, *, rounds: bool = True) -> Change:
-    return Change(forth=_by_geometry(lambda g: moved(g, forth)), back=lambda g: moved(g, back), rounds=rounds)
+def _motion(forth: Move, back: Move, *, rounds: bool = True, turns: bool = True) -> Change:
+    there = _by_geometry(lambda g: moved(g, forth))
+    return Change(forth=there, back=lambda g: moved(g, back), rounds=rounds, turns=turns)
 
 
 def _drawing(change: Callable[[Geometries], Geometries]) -> Change:
@@ -96,7 +98,7 @@ def _shuffled(columns: Any) -> Any:
 
 
 CHANGES = {
-    "shifted": _motion(lambda c: c + SHIFT, lambda c: c - SHIFT),
+    "shifted": _motion(lambda c: c + SHIFT, lambda c: c - SHIFT, turns=False),
     "turned": _motion(lambda c: c @ TURN.T, lambda c: c @ TURN),
     "turned and shifted": _motion(lambda c: c @ TURN.T + SHIFT, lambda c: (c - SHIFT) @ TURN),
     "turned by a right angle": _motion(lambda c: c @ QUARTER.T, lambda c: c @ QUARTER, rounds=False),

@@ -32,7 +32,7 @@ class Case:
     given: Any  #: columns of the input of the rule
     tolerances: dict[str, float]  #: SI
     find: list[dict[str, Any]]
-    tie: bool  #: pieces of the same length: which of them is the place depends on the order of vertices
+    tie: bool  #: of equals the first by x, then y, is named: another one in a turned drawing
 
     def run(self, columns: Named | None = None) -> Hits:
         """What the rule finds in the drawing, or in a changed one."""

@@ -56,16 +56,17 @@ def groups(hits: list[Found]) -> dict[str, set[str]]:
 def match(case: Case, change: Change, before: list[Found], after: list[Found]) -> list[Found]:
     """What was found before and has no counterpart after."""
     within = SAME if not (change.rounds or change.redraws) else SAME + case.tolerances.get("coincide", 0.0)
-    # GEOS names one corner of a fault of many; of equal pieces any may be the longest.
-    placeless = case.rule.subject is Features or (case.tie and change.redraws)
+    tied = case.tie and change.turns
+    # GEOS names one corner of a fault of many.
+    placeless = case.rule.subject is Features or tied
     group = groups(before)
 
     def same(one: Found, two: Found) -> bool:
         if one.size != pytest.approx(two.size, abs=SAME):
             return False
         there = placeless or lie_together(one.place, two.place, within)
-        if change.reorders and NOTHING not in (one.other, two.other):
-            # The first of equals is named: other rows of the same group, or the same place between others.
+        if (change.reorders or tied) and NOTHING not in (one.other, two.other):
+            # One of equals is named: other rows of the same group, or the same place between others.
             return there or two.item in group[one.item]
         return there and (one.item, one.other) == (two.item, two.other)
 

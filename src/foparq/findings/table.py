@@ -125,7 +125,9 @@ def finding_keys(rule: str, layer: Texts, item: Texts, other: Texts, places: Rea
         ``"TOP021-1a2b3c4d5e"``. Findings that share a key are numbered: ``"TOP021-1a2b3c4d5e-2"``.
     """
     # A place absurdly far away is still a place: it stays within what an integer holds.
-    cells = np.clip(np.rint(np.nan_to_num(places / grid)), -(2.0**62), 2.0**62).astype(np.int64).tolist()
+    # On a drawing in whole cells many a place lies halfway between two: noise must not decide there.
+    halves = np.round(np.nan_to_num(places / grid), 3)
+    cells = np.clip(np.rint(halves), -(2.0**62), 2.0**62).astype(np.int64).tolist()
     keys = []
     for on, one, two, cell in zip(layer, item, other, cells, strict=True):
         first, second = (two, one) if two < one else (one, two)

@@ -7,10 +7,12 @@ import numpy as np
 import shapely
 
 from foparq.columns import Geometries, Index, Reals
+from foparq.geom.ranks import area_ranks
 from foparq.geom.rounding import EARTH, origin_of, slack_of
 
 #: corners sharper than this many times the growth are cut, so that growing stays near
 _MITRE = 5.0
+_BLOCK = 1000  #: pairs of a gap and an area looked at in one step
 _POLYGON = shapely.GeometryType.POLYGON
 
 
@@ -18,7 +20,7 @@ class AreaOverlaps(NamedTuple):
     """Pairs of areas that cover a place twice, k rows."""
 
     larger: Index  #: (k,)
-    smaller: Index  #: (k,) the one at fault; of equals the later
+    smaller: Index  #: (k,) the one at fault; of equals the later by place
     common: Geometries  #: (k,) polygon or polygons
     area: Reals  #: (k,) square metres
 
@@ -26,8 +28,8 @@ class AreaOverlaps(NamedTuple):
 class Gaps(NamedTuple):
     """Enclosed places that no area covers, k rows in order of (first, second)."""
 
-    first: Index  #: (k,) first area that bounds it
-    second: Index  #: (k,) second area that bounds it
+    first: Index  #: (k,) area that bounds most of it, of equals the larger, then the first by place
+    second: Index  #: (k,) the next
     gap: Geometries  #: (k,) polygon
     area: Reals  #: (k,) square metres
 
@@ -58,8 +60,8 @@ def area_overlaps(areas: Geometries, *, least: float) -> AreaOverlaps:
         area > least + slack_of(shapely.get_coordinates(areas)) * shapely.length(common) + 1e-9 * least
     )
     # Whichever comes first in the file, the smaller of two areas is the one at fault.
-    size = np.round(shapely.area(local), 9)
-    larger = (size[j] > size[i])[over]
+    rank = area_ranks(areas)
+    larger = (rank[j] < rank[i])[over]
     first, second = np.where(larger, j[over], i[over]), np.where(larger, i[over], j[over])
     order = np.lexsort((first, second))
     return AreaOverlaps(
@@ -113,14 +115,33 @@ def coverage_gaps(areas: Geometries, *, coincide: float, most: float) -> Gaps:
     enclosed, area = enclosed[small], area[small]
 
     gap, side = shapely.STRtree(local).query(enclosed, predicate="dwithin", distance=2 * half)
-    first = np.full(len(enclosed), len(areas), dtype=np.intp)
-    np.minimum.at(first, gap, side)
-    second = np.full(len(enclosed), len(areas), dtype=np.intp)
-    later = side != first[gap]
-    np.minimum.at(second, gap[later], side[later])
-    kept = np.flatnonzero(second < len(areas))
+    first, second = _most_bounding(local, enclosed, gap, side, half)
+    kept = np.flatnonzero(second >= 0)
     kept = kept[np.lexsort((second[kept], first[kept]))]
     return Gaps(first[kept], second[kept], _moved(enclosed[kept], origin), area[kept])
+
+
+def _most_bounding(areas: Geometries, gaps: Geometries, gap: Index, side: Index, half: float) -> tuple[Index, Index]:
+    """The two areas (g,) that bound most of each gap, of equals the larger; -1 where there is none.
+
+    ``gap`` and ``side`` are pairs of a gap and an area near it.
+    """
+    shared = np.zeros(len(gap))
+    several = np.flatnonzero(np.bincount(gap, minlength=len(gaps))[gap] > 2)  # noqa: PLR2004 - two are not chosen
+    edges = shapely.boundary(gaps)
+    for start in range(0, len(several), _BLOCK):
+        rows = several[start : start + _BLOCK]
+        near, of = np.unique(side[rows], return_inverse=True)
+        grown = _grown(areas[near], 2 * half)
+        shared[rows] = shapely.length(shapely.intersection(edges[gap[rows]], grown[of.reshape(-1)]))
+    order = np.lexsort((area_ranks(areas)[side], -np.round(shared / half), gap))
+    gap, side = gap[order], side[order]
+    head = np.searchsorted(gap, np.arange(len(gaps)))
+    chosen = np.full((2, len(gaps)), -1, dtype=np.intp)
+    for n, column in enumerate(chosen):
+        there = np.flatnonzero(head + n < np.searchsorted(gap, np.arange(len(gaps)), side="right"))
+        column[there] = side[head[there] + n]
+    return chosen[0], chosen[1]
 
 
 def _grown(shapes: Geometries, by: float) -> Geometries:

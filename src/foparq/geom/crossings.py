@@ -8,8 +8,8 @@ import numpy as np
 from foparq.columns import Flags, Index, Reals
 from foparq.geom.ends import leaving
 from foparq.geom.pairs import meetings
-from foparq.geom.polylines import Polylines
-from foparq.geom.segments import ALONG, at_share, contacts, shared
+from foparq.geom.polylines import Polylines, Segments
+from foparq.geom.segments import ALONG, Contacts, at_share, contacts, shared
 from foparq.geom.stretches import join_pieces, longest
 
 
@@ -48,8 +48,9 @@ def self_meetings(lines: Polylines, *, coincide: float) -> SelfMeetings:
 
     Notes
     -----
-    Two segments are *joined* if the line between them stays within ``coincide`` of the end of the first: neighbours,
-    neighbours but for repeated vertices, and the two segments at the closing point of a ring. Joined segments are at
+    Two segments are *joined* if the line between them stays within ``coincide`` of the end of the first, or of the
+    start of the second: neighbours, neighbours but for repeated vertices, and the two segments at the closing point of
+    a ring. Joined segments are at
     fault only if they run along each other for more than ``coincide`` (a kickback). O(s log s + meetings).
     """
     within = coincide + lines.slack
@@ -64,7 +65,7 @@ def self_meetings(lines: Polylines, *, coincide: float) -> SelfMeetings:
     length = np.hypot(*(pieces.end - pieces.start).T)
     loop = np.zeros(len(touching.first))
     np.maximum.at(loop, touching.label, pieces.loop)
-    row = longest(touching.label, length, -pieces.loop, slack=4 * lines.slack)
+    row = longest(touching.label, length, -pieces.loop, pieces.start / 2 + pieces.end / 2, slack=lines.slack)
     return SelfMeetings(pieces.line[row], pieces.start[row], pieces.end[row], loop)
 
 
@@ -73,8 +74,9 @@ def _joined(lines: Polylines, i: Index, j: Index, within: float) -> Flags:
     end, start = lines.first[i] + 1, lines.first[j]
     joined = lines.along[start] - lines.along[end] <= within
     doubtful = np.flatnonzero(~joined & _near(lines, end, start, within))
-    left = leaving(lines, end[doubtful], np.ones(len(doubtful), dtype=bool), radius=within)
-    joined[doubtful] = left > start[doubtful]
+    forth = leaving(lines, end[doubtful], np.ones(len(doubtful), dtype=bool), radius=within)
+    back = leaving(lines, start[doubtful], np.zeros(len(doubtful), dtype=bool), radius=within)
+    joined[doubtful] = (forth > start[doubtful]) | (back < end[doubtful])
 
     line = lines.line[i]
     before, after = lines.first[i], lines.first[j] + 1
@@ -119,13 +121,27 @@ def _retraced(lines: Polylines, i: Index, j: Index, within: float) -> _Pieces:
 def _touched(lines: Polylines, i: Index, j: Index, within: float) -> _Pieces:
     one, two = lines.segments(i), lines.segments(j)
     found = contacts(one, two, within=within)
-    # The crossing if there is one, else the first candidate that meets; argmax finds the first true.
-    which = found.meets.argmax(axis=0)
+    which = _best_contact(found, one, two, lines.slack)
     pick = np.arange(len(i))
     on_one, on_two = found.on_a[which, pick], found.on_b[which, pick]
     place = (at_share(on_one, one.start, one.end) + at_share(on_two, two.start, two.end)) / 2
     run = [lines.along[lines.first[s]] + share * lines.step[s] for s, share in ((i, on_one), (j, on_two))]
     return _Pieces(lines.line[i], place, place, _loop(lines, lines.line[i], run[0], run[1], within))
+
+
+def _best_contact(found: Contacts, one: Segments, two: Segments, slack: float) -> Index:
+    """Candidate (k,) that says where two segments meet: the crossing, else the nearest, then the first by place."""
+    best = np.zeros(len(one.start), dtype=np.intp)
+    least = np.full((3, len(best)), np.inf)
+    for n in range(1, len(found.meets)):
+        on_one, on_two = at_share(found.on_a[n], one.start, one.end), at_share(found.on_b[n], two.start, two.end)
+        key = np.round(np.vstack([np.hypot(*(on_one - on_two).T), (on_one / 2 + on_two / 2).T]) / (4 * slack))
+        less = key < least
+        less = less[0] | ((key[0] == least[0]) & (less[1] | ((key[1] == least[1]) & less[2])))
+        taken = ~found.meets[0] & found.meets[n] & less
+        best[taken] = n
+        least[:, taken] = key[:, taken]
+    return best
 
 
 def _loop(lines: Polylines, line: Index, one: Reals, two: Reals, within: float) -> Reals:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from foparq.columns import Flags, Index, Reals
 from foparq.geom.polylines import Polylines, Segments
+from foparq.geom.ranks import line_ranks
 from foparq.geom.segments import at_share, cannot_meet, contacts, nearest_share
 
 NOBODY = -1
@@ -57,7 +58,8 @@ def classify_ends(lines: Polylines, *, coincide: float, reach: float) -> Ends:
     Notes
     -----
     O((s + e) log s + near pairs), in blocks of bounded memory. The distance to other linework is that to the nearest
-    place in the plane, joined with the difference in depth there. Among lines at the same distance the first is named.
+    place in the plane, joined with the difference in depth there. Among lines at the same distance the longest is
+    named, of equals the first by place.
     Does not look at the middle of lines: two lines that cross without a vertex are no matter of ends.
     """
     return lines.kept(
@@ -191,7 +193,7 @@ def _nearest(asked: _Asked, back: Index, within: float, radius: float) -> tuple[
         apart = np.hypot(flat, drop)
         # What is farther is never told; what is no number would hide the others.
         far = np.flatnonzero((apart <= radius + 2 * lines.slack) & asked.others(at, row))
-        _keep_least(gap, line, at[far], apart[far], lines.line[row[far]], lines.slack)
+        _keep_least(lines, gap, line, at[far], apart[far], lines.line[row[far]])
     return gap, line, connected
 
 
@@ -212,7 +214,7 @@ def _last_meeting(asked: _Asked, within: float, radius: float) -> tuple[Reals, I
         place = np.where(found.meets[0], share[0], share[1:].min(axis=0)) if len(at) else np.zeros(0)
         met = np.flatnonzero(np.isfinite(place))
         at, two, place = at[met], two[met], place[met]
-        _keep_least(passed, line, end[at], before[at] + place * length[at], lines.line[two], lines.slack)
+        _keep_least(lines, passed, line, end[at], before[at] + place * length[at], lines.line[two])
     return passed, line
 
 
@@ -247,15 +249,20 @@ def _stretches(asked: _Asked, radius: float) -> tuple[Index, Reals, Segments]:
     return end, before, Segments(p0, at_share(share, p0, p1), z0, at_share(share, z0, z1))
 
 
-def _keep_least(least: Reals, line: Index, at: Index, value: Reals, of: Index, slack: float) -> None:
-    """Lower ``least[at]`` to ``value`` and name the line; of values that differ by rounding only, the first line."""
-    if not len(at):
-        return
-    before = least.copy()
+def _keep_least(lines: Polylines, least: Reals, line: Index, at: Index, value: Reals, of: Index) -> None:
+    """Lower ``least[at]`` to ``value`` and name the line; of values that differ by rounding only, the first by rank."""
+    ends = np.unique(at)
+    named = line[ends] != NOBODY
+    at, of = np.concatenate([at, ends[named]]), np.concatenate([of, line[ends[named]]])
+    value = np.concatenate([value, least[ends[named]]])
     np.minimum.at(least, at, value)
-    tied = value <= least[at] + slack
+    tied = value <= least[at] + lines.slack
     at, of = at[tied], of[tied]
-    first = np.where(before <= least + slack, line, np.iinfo(np.intp).max)
-    first[first == NOBODY] = np.iinfo(np.intp).max
-    np.minimum.at(first, at, of)
-    line[at] = first[at]
+    line[at] = of
+    doubtful = np.zeros(len(line), dtype=bool)
+    doubtful[at[line[at] != of]] = True
+    rows = np.flatnonzero(doubtful[at])
+    if len(rows):
+        choice, index = np.unique(of[rows], return_inverse=True)
+        order = rows[np.argsort(-line_ranks(lines, choice)[index], kind="stable")]
+        line[at[order]] = of[order]  # the last that is written stays

@@ -8,6 +8,7 @@ import numpy as np
 from foparq.columns import Flags, Index, Reals
 from foparq.geom.pairs import meetings
 from foparq.geom.polylines import Polylines, summed
+from foparq.geom.ranks import line_ranks
 from foparq.geom.segments import shared
 from foparq.geom.stretches import components, longest
 from foparq.geom.tangents import runs_along
@@ -57,10 +58,9 @@ def line_overlaps(lines: Polylines, exempt: Flags, *, coincide: float) -> Overla
     pair, label = np.unique(later * len(lines) + earlier, return_inverse=True)
     length = summed(label, run.length[kept], len(pair))
     middle = (run.start[kept] + run.end[kept]) / 2
-    # Of equal pieces the one nearest to an end of the later line: the same whichever way the lines are drawn.
-    head, tail = lines.plane[lines.heads[later]], lines.plane[lines.tails[later]]
-    tie = np.minimum(np.hypot(*(middle - head).T), np.hypot(*(middle - tail).T))
-    row = kept[longest(label, run.length[kept], tie, slack=4 * lines.slack)]
+    # Of equal pieces the one nearest to an end of either line: the same whichever way the drawing is turned.
+    tie = np.minimum(_from_an_end(lines, earlier, middle), _from_an_end(lines, later, middle))
+    row = kept[longest(label, run.length[kept], tie, middle, slack=lines.slack)]
     over = length > within
     first, second = _from_the_longest(
         lines, exempt, (pair % max(len(lines), 1))[over], (pair // max(len(lines), 1))[over]
@@ -72,6 +72,13 @@ def line_overlaps(lines: Polylines, exempt: Flags, *, coincide: float) -> Overla
         run.start[row][over],
         run.end[row][over],
     )
+
+
+def _from_an_end(lines: Polylines, line: Index, place: Reals) -> Reals:
+    """Distance (k,) of places from the nearer end of a line; inf for a ring."""
+    ends = [np.hypot(*(place - lines.plane[at[line]]).T) for at in (lines.heads, lines.tails)]
+    distance: Reals = np.where(lines.opening[line] > lines.slack, np.minimum(*ends), np.inf)
+    return distance
 
 
 def _from_the_longest(lines: Polylines, exempt: Flags, one: Index, two: Index) -> tuple[Index, Index]:
@@ -88,13 +95,13 @@ def _from_the_longest(lines: Polylines, exempt: Flags, one: Index, two: Index) -
     line, index = np.unique(np.concatenate([one, two]), return_inverse=True)
     i, j = index[: len(one)], index[len(one) :]
     label = components(len(line), i, j)
-    # Lengths that differ by rounding only are equal; of equals the first.
-    order = np.lexsort((line, -np.round(lines.length[line] / (4 * lines.slack)), label))
+    rank = line_ranks(lines, line)
+    order = np.lexsort((rank, label))
     longest_line = order[np.unique(label[order], return_index=True)[1]]
     bounded = np.zeros(len(longest_line), dtype=bool)
     bounded[label[exempt[line]]] = True
     sources = np.concatenate([np.flatnonzero(exempt[line]), longest_line[~bounded]])
     graph = coo_array((np.ones(len(i)), (i, j)), shape=(len(line), len(line))).tocsr()
     steps = dijkstra(graph, directed=False, indices=sources, unweighted=True, min_only=True)
-    swap = (steps[i] > steps[j]) | ((steps[i] == steps[j]) & (one > two))
+    swap = (steps[i] > steps[j]) | ((steps[i] == steps[j]) & (rank[i] > rank[j]))
     return np.where(swap, two, one), np.where(swap, one, two)

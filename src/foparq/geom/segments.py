@@ -7,6 +7,7 @@ import numpy as np
 
 from foparq.columns import Flags, Reals
 from foparq.geom.polylines import Segments
+from foparq.geom.rounding import ROUNDING
 
 #: sine of an angle of 0.06 degrees: below it the crossing of two segments is not well placed
 _TRANSVERSAL = 1e-3
@@ -127,8 +128,9 @@ def _crossing(a: Segments, b: Segments, within: float) -> tuple[Reals, Reals]:
 def shared(a: Segments, b: Segments, *, within: float) -> Shared:
     """Stretch over which two segments run along each other.
 
-    Both are laid on the longer of the two; the stretch is their common interval, if they are within ``within`` of each
-    other at both ends of it, in the plane and in depth, and their directions differ by less than one in four.
+    Both are laid on the longer of the two, of equals the first by place; the stretch is their common interval, if they
+    are within ``within`` of each other at both ends of it, in the plane and in depth, and their directions differ by
+    less than one in four.
 
     Parameters
     ----------
@@ -140,7 +142,7 @@ def shared(a: Segments, b: Segments, *, within: float) -> Shared:
     Shared
     """
     long_a, long_b = np.hypot(*(a.end - a.start).T), np.hypot(*(b.end - b.start).T)
-    swap = long_b > long_a
+    swap = _goes_first(b, a, long_b - long_a)
     base, other = _choose(swap, b, a), _choose(swap, a, b)
     length, short = np.maximum(long_a, long_b), np.minimum(long_a, long_b)
     unit = (base.end - base.start) / np.where(length > 0, length, 1.0)[:, None]
@@ -157,6 +159,15 @@ def shared(a: Segments, b: Segments, *, within: float) -> Shared:
         runs &= np.abs(drop) <= within
     start, end = base.start + unit * low[:, None], base.start + unit * high[:, None]
     return Shared(np.where(runs, high - low, 0.0), start, end)
+
+
+def _goes_first(one: Segments, two: Segments, longer: Reals) -> Flags:
+    """True (k,) where the first segment is longer, or, but for rounding, as long and its middle comes first."""
+    # Halved to keep huge numbers finite.
+    aside = (one.start / 2 + one.end / 2) - (two.start / 2 + two.end / 2)
+    ahead = (aside[:, 0] < -ROUNDING) | ((aside[:, 0] <= ROUNDING) & (aside[:, 1] < 0))
+    first: Flags = (longer > ROUNDING) | ((longer >= -ROUNDING) & ahead)
+    return first
 
 
 def _choose(which: Flags, yes: Segments, no: Segments) -> Segments:

@@ -74,7 +74,7 @@ def join_pieces(group: Index, start: Reals, end: Reals, *, gap: float) -> Stretc
     return Stretches(label, first, summed(label, np.hypot(*(end - start).T), len(first)))
 
 
-def longest(label: Index, length: Reals, tie: Reals, *, slack: float) -> Index:
+def longest(label: Index, length: Reals, tie: Reals, place: Reals, *, slack: float) -> Index:
     """Row of the longest piece of each label.
 
     Parameters
@@ -82,7 +82,9 @@ def longest(label: Index, length: Reals, tie: Reals, *, slack: float) -> Index:
     label : (k,) int, 0 ... g - 1, each used
     length : (k,) metres
     tie : (k,) float
-        Of pieces that are equally long but for rounding, the one with the least ``tie`` is taken, then the first.
+        Of pieces that are equally long but for rounding, the one with the least ``tie`` is taken.
+    place : (k, 2) metres
+        Of those that are equal in this too, the first by x, then y.
     slack : float, metres
         Greatest effect of rounding on a length.
 
@@ -93,7 +95,8 @@ def longest(label: Index, length: Reals, tie: Reals, *, slack: float) -> Index:
     most = np.zeros(int(label.max()) + 1 if len(label) else 0)
     np.maximum.at(most, label, length)
     shorter = length < most[label] - slack
-    order = np.lexsort((np.arange(len(label)), np.round(tie / slack / 4), shorter, label))
+    x, y, tie = (np.round(column / slack / 4) for column in (*place.T, tie))
+    order = np.lexsort((y, x, tie, shorter, label))
     _, first = np.unique(label[order], return_index=True)
     chosen: Index = order[first]
     return chosen

@@ -49,7 +49,7 @@ def runs_along(lines: Polylines, i: Index, j: Index, start: Reals, end: Reals, *
     _, group = np.unique(lines.line[j] * len(lines) + lines.line[i], return_inverse=True)
     label = join_pieces(group, start, end, gap=2 * within).label
     count = int(label.max()) + 1
-    one, two = _extremes(label, start, end, count)
+    one, two = _extremes(label, start, end, count, lines.slack)
     breaks, of = _breaks(lines, i, j, start, end, label, within)
     ends = np.zeros(count, dtype=np.intp)
     for extreme in (one, two):
@@ -64,17 +64,19 @@ def runs_along(lines: Polylines, i: Index, j: Index, start: Reals, end: Reals, *
     return found
 
 
-def _extremes(label: Index, start: Reals, end: Reals, count: int) -> tuple[Reals, Reals]:
+def _extremes(label: Index, start: Reals, end: Reals, count: int, slack: float) -> tuple[Reals, Reals]:
     """Two ends (count, 2) of every stretch: of its places, two that lie farthest apart."""
     places, of = np.concatenate([start, end]), np.concatenate([label, label])
-    first = np.zeros((count, 2))
-    first[label] = start
-    one = _farthest(places, of, first, count)
-    return one, _farthest(places, of, one, count)
+    # In an order of their own, so that neither the file nor the way of drawing decides between places equally far.
+    order = np.lexsort((*np.round(places / (4 * slack)).T, of))
+    places, of = places[order], of[order]
+    first = places[np.searchsorted(of, np.arange(count))]
+    one = _farthest(places, of, first, count, slack)
+    return one, _farthest(places, of, one, count, slack)
 
 
-def _farthest(places: Reals, of: Index, origin: Reals, count: int) -> Reals:
-    order = np.lexsort((np.hypot(*(places - origin[of]).T), of))
+def _farthest(places: Reals, of: Index, origin: Reals, count: int, slack: float) -> Reals:
+    order = np.lexsort((np.round(np.hypot(*(places - origin[of]).T) / (4 * slack)), of))
     last = np.searchsorted(of[order], np.arange(count), side="right") - 1
     found: Reals = places[order[last]]
     return found

@@ -44,7 +44,8 @@ def invalid_geometries(geometry: Geometries) -> Invalid:
     broken = shapely.is_missing(geometry) | shapely.is_empty(geometry) | _not_finite(geometry) | _too_short(geometry)
     place = np.full(len(geometry), shapely.Point(), dtype=object)
     doubtful = np.flatnonzero(~broken & ~shapely.is_valid(geometry) & (shapely.get_dimensions(geometry) == 2))  # noqa: PLR2004
-    reason = shapely.is_valid_reason(geometry[doubtful])
+    # GEOS names what it comes upon first: the same place wherever a ring starts and whichever way it is drawn.
+    reason = shapely.is_valid_reason(shapely.normalize(geometry[doubtful]))
     simple = _rings_are_simple(geometry[doubtful])
     for row, text, rings_are_simple in zip(doubtful, reason, simple, strict=True):
         if "elf-intersection" in text and not rings_are_simple:

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: MIT
 """GEO002 zero-length."""
 
+import shapely
+
 from foparq.check.rule import rule
 from foparq.findings.hits import Hits, hits
+from foparq.geom.places import place_on
 from foparq.geom.shapes import point_like
 from foparq.model.inputs import Lines
 from foparq.units import Metres
@@ -23,7 +26,7 @@ def zero_length(lines: Lines, *, coincide: Metres) -> Hits:
     Returns
     -------
     Hits
-        One a line: place is its first vertex, size its length.
+        One a line: place is the point at half its length, size its length.
 
     Notes
     -----
@@ -31,4 +34,4 @@ def zero_length(lines: Lines, *, coincide: Metres) -> Hits:
     """
     table = lines.polylines
     row = point_like(table, coincide=coincide)
-    return hits(row, table.points(table.plane[table.heads[row]]), table.length_in_space[row])
+    return hits(row, shapely.points(place_on(lines.geometry[row])[:, :2]), table.length_in_space[row])

@@ -24,7 +24,8 @@ def area_overlap(areas: Areas, *, least: SquareMetres) -> Hits:
     Returns
     -------
     Hits
-        One a pair: row is the smaller of the two, other the larger; place is the common polygon, size its area.
+        One a pair: row is the smaller of the two (of equals the second by place), other the larger; place is the
+        common polygon, size its area.
 
     Notes
     -----

@@ -28,7 +28,8 @@ def gap(areas: Areas, *, coincide: Metres, most: SquareMetres) -> Hits:
     Returns
     -------
     Hits
-        One a gap: place is its polygon, size its area, row the first area that bounds it, other the second.
+        One a gap: place is its polygon, size its area, row the area that bounds most of it (of equals the
+        larger, then the first by place), other the next.
 
     Notes
     -----

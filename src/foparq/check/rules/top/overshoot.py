@@ -30,7 +30,7 @@ def overshoot(lines: Lines, *, coincide: Metres, reach: Metres) -> Hits:
     -------
     Hits
         One an end: place is the end, size the length along the line from the end to the last meeting, other the line
-        met there (of equals, the first).
+        met there (of equals the longest, then the first by place).
 
     Notes
     -----

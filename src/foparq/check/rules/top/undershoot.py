@@ -35,7 +35,8 @@ def undershoot(lines: Lines, *, coincide: Metres, reach: Metres) -> Hits:
     Returns
     -------
     Hits
-        One an end: place is the end, size the distance d, other the nearest line (of equals, the first).
+        One an end: place is the end, size the distance d, other the nearest line (of
+        equals the longest, then the first by place).
 
     Notes
     -----
