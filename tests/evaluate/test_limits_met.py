@@ -23,9 +23,9 @@ from tests.evaluate.deliveries import (
 
 from foparq.accuracy.normality import AndersonDarling
 from foparq.accuracy.student import StudentTest
-from foparq.evaluate import normality as normality_module
 from foparq.evaluate import threshold as threshold_module
-from foparq.evaluate import trend as trend_module
+from foparq.evaluate.elements import normality as normality_module
+from foparq.evaluate.elements import trend as trend_module
 from foparq.evaluate.quality import Element, ElementStatus
 from foparq.model.tables import Checkpoints
 from foparq.units import Quantity
