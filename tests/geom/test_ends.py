@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from tests.geom.oracle import classify_all
 
-from foparq.geom.ends import NOBODY, EndKind, Ends, classify_ends, leaving
+from foparq.geom.ends import NOBODY, EndKind, Ends, classify_ends
+from foparq.geom.leaving import leaving
 from foparq.geom.polylines import Polylines
 
 # No two places of a millimetre grid are exactly this far apart.
@@ -107,3 +108,19 @@ def test_leaving_is_the_first_vertex_outside() -> None:
     ahead = leaving(table, np.array([0, 0, 4]), np.array([True, True, False]), radius=1.5)
     assert ahead.tolist() == [2, 2, 3]
     assert leaving(table, np.array([0, 4]), np.array([True, False]), radius=9).tolist() == [5, -1]
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_leaving_is_what_a_walk_finds(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    ways = [np.cumsum(rng.normal(0, rng.choice([0.02, 0.2]), (n, 2)), axis=0) for n in rng.integers(2, 90, 40)]
+    table = polylines(ways)
+    line = rng.integers(0, len(ways), 500)
+    place = np.array([rng.integers(len(ways[n])) for n in line])
+    forward = rng.random(500) < 0.5
+    expected = []
+    for n, k, ahead in zip(line, place, forward, strict=True):
+        rest = range(k + 1, len(ways[n])) if ahead else range(k - 1, -1, -1)
+        left = [m for m in rest if np.hypot(*(ways[n][m] - ways[n][k])) > 0.5]
+        expected.append(table.offsets[n] + left[0] if left else len(table.coordinates) if ahead else -1)
+    assert leaving(table, table.offsets[line] + place, forward, radius=0.5).tolist() == expected

@@ -10,11 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from foparq.geom import boxtree
+from foparq.geom import boxtree, runtree
 from foparq.geom.boxtree import BoxTree
 from foparq.geom.crossings import self_meetings
 from foparq.geom.overlaps import line_overlaps
-from foparq.geom.pairs import meetings
+from foparq.geom.pairs import own_meetings
 from foparq.geom.polylines import Polylines
 
 FINE = 1e-9
@@ -53,6 +53,23 @@ def test_tree_finds_the_pairs_that_brute_force_finds(count: int, seed: int, monk
     assert asked == set(zip(*(axis.tolist() for axis in np.nonzero(near)), strict=True))
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_runs_find_the_pairs_that_brute_force_finds(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(runtree, "_CHUNK", 64)
+    rng = np.random.default_rng(seed)
+    offsets = np.concatenate([[0], np.cumsum(rng.choice([0, 1, 2, 3, 4, 5, 16, 17, 60], 20))])
+    low = rng.uniform(0, 1, (offsets[-1], 2))
+    high = low + rng.exponential(0.1, low.shape) * (rng.random((len(low), 1)) < 0.7)
+    run = np.repeat(np.arange(20), np.diff(offsets))
+    near = np.all((low[:, None] <= high[None] + 0.01) & (low[None] <= high[:, None] + 0.01), axis=2)
+    expected = set(zip(*np.nonzero(np.triu(near & (run[:, None] == run), 2)), strict=True))
+    found = [
+        pair for i, j in runtree.pairs_of_runs(low, high, offsets, distance=0.01) for pair in zip(i, j, strict=True)
+    ]
+    assert len(found) == len(set(found))
+    assert set(found) == expected
+
+
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(st.lists(walk, min_size=1, max_size=6))
 def test_segments_of_one_line_meet_where_shapely_says_so(lines: list[shapely.LineString]) -> None:
@@ -65,7 +82,7 @@ def test_segments_of_one_line_meet_where_shapely_says_so(lines: list[shapely.Lin
         for j, (m, l, b) in enumerate(pieces)
         if i < j and n == m and k + 1 != l and shapely.intersects(a, b)
     }
-    assert set(zip(*meetings(table(lines), coincide=FINE).own.tolist(), strict=True)) == expected
+    assert set(zip(*own_meetings(table(lines), coincide=FINE).tolist(), strict=True)) == expected
 
 
 @settings(max_examples=300, deadline=None, derandomize=True)

@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from foparq.columns import Flags, Index, Reals
-from foparq.geom.ends import leaving
-from foparq.geom.pairs import meetings
+from foparq.geom.leaving import leaving
+from foparq.geom.pairs import own_meetings
 from foparq.geom.polylines import Polylines, Segments
 from foparq.geom.segments import ALONG, Contacts, at_share, contacts, shared
 from foparq.geom.stretches import join_pieces, longest
@@ -54,7 +54,7 @@ def self_meetings(lines: Polylines, *, coincide: float) -> SelfMeetings:
     fault only if they run along each other for more than ``coincide`` (a kickback). O(s log s + meetings).
     """
     within = coincide + lines.slack
-    i, j = meetings(lines, coincide=coincide).own
+    i, j = own_meetings(lines, coincide=coincide)
     joined = _joined(lines, i, j, within)
     back = _turning_back(lines, within)
     retraced = _retraced(lines, np.concatenate([i, back]), np.concatenate([j, back + 1]), within)

@@ -14,7 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from foparq.columns import Flags, Index, Reals
+from foparq.geom.leaving import leaving
 from foparq.geom.polylines import Polylines, Segments
+from foparq.geom.ragged import last_not_above, ragged
 from foparq.geom.ranks import line_ranks
 from foparq.geom.segments import at_share, cannot_meet, contacts, nearest_share
 
@@ -139,38 +141,6 @@ def _share_an_end(lines: Polylines, vertex: Index, within: float) -> Flags:
     return crowded
 
 
-def leaving(lines: Polylines, vertex: Index, forward: Flags, *, radius: float) -> Index:
-    """First vertex at which a line, followed from a given vertex, is farther than ``radius`` from it in the plane.
-
-    Parameters
-    ----------
-    lines : Polylines
-    vertex : (k,) int
-    forward : (k,) bool
-        Followed in the order of the line, else against it.
-    radius : float, metres
-
-    Returns
-    -------
-    (k,) int
-        Row of the coordinates. A line that never leaves gives a row beyond its end: past the last vertex of all lines
-        if forward, before the first if not.
-    """
-    left = np.where(forward, len(lines.coordinates), -1)
-    active = np.arange(len(vertex))
-    stride, last = np.where(forward, 1, -1), np.where(
-        forward, lines.tails[lines.line_of_vertex[vertex]], lines.heads[lines.line_of_vertex[vertex]]
-    )  # fmt: skip
-    at = vertex.copy()
-    while len(active):
-        active = active[at[active] != last[active]]
-        at[active] += stride[active]
-        away = np.hypot(*(lines.plane[at[active]] - lines.plane[vertex[active]]).T) > radius
-        left[active[away]] = at[active[away]]
-        active = active[~away]
-    return left
-
-
 def _nearest(asked: _Asked, back: Index, within: float, radius: float) -> tuple[Reals, Index, Flags]:
     """Distance to the nearest other linework (inf beyond ``radius``), its line, and whether the end meets anything.
 
@@ -226,20 +196,16 @@ def _stretches(asked: _Asked, radius: float) -> tuple[Index, Reals, Segments]:
     end, before, piece
         Row of the end, length between the end and the piece, the piece.
     """
-    lines = asked.lines
-    run = lines.along[asked.vertex]
-    line_end = np.where(asked.forward, lines.tails[asked.line], lines.heads[asked.line])
+    lines, vertex = asked.lines, asked.vertex
+    run = lines.along[vertex]
+    head, tail = lines.heads[asked.line], lines.tails[asked.line]
+    last = last_not_above(lines.along, vertex, np.maximum(tail, vertex + 1), run + radius)
+    first = last_not_above(lines.along, head, vertex + 1, run - radius)
+    first = np.maximum(first + (lines.along[first] <= run - radius), head + 1)
+    count = np.where(asked.forward, last - vertex, vertex - first) + 1
+    end, place = ragged(np.zeros(len(vertex), dtype=np.intp), count)
     stride = np.where(asked.forward, 1, -1)
-    found: list[tuple[Index, Index]] = []
-    active, at = np.arange(len(asked.line)), asked.vertex.copy()
-    while len(active):
-        found.append((active, at[active]))
-        at[active] += stride[active]
-        short = np.abs(lines.along[at[active]] - run[active]) < radius
-        active = active[short & (at[active] != line_end[active])]
-    if not found:
-        found = [(active, at)]
-    end, start = (np.concatenate(column) for column in zip(*found, strict=True))
+    start = vertex[end] + stride[end] * place
     stop = start + stride[end]
     before = np.abs(lines.along[start] - run[end])
     length = np.abs(lines.along[stop] - lines.along[start])

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from foparq.columns import Flags, Index, Reals
-from foparq.geom.pairs import meetings
+from foparq.geom.pairs import runs_of_two
 from foparq.geom.polylines import Polylines, summed
 from foparq.geom.ranks import line_ranks
 from foparq.geom.segments import shared
@@ -50,7 +50,7 @@ def line_overlaps(lines: Polylines, exempt: Flags, *, coincide: float) -> Overla
     another counts twice.
     """
     within = coincide + lines.slack
-    i, j = meetings(lines, coincide=coincide).along
+    i, j = runs_of_two(lines, coincide=coincide)
     run = shared(lines.segments(i), lines.segments(j), within=within)
     kept = np.flatnonzero(~(exempt[lines.line[i]] & exempt[lines.line[j]]) & (run.length > 0))
     kept = kept[runs_along(lines, i[kept], j[kept], run.start[kept], run.end[kept], within=within)]

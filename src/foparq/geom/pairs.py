@@ -1,24 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Pairs of segments that meet in a way that a rule asks for."""
 
-from typing import NamedTuple
-
 import numpy as np
 
-from foparq.columns import Index
+from foparq.columns import Flags, Index
 from foparq.geom.polylines import Polylines
-from foparq.geom.segments import cannot_meet, contacts, shared
+from foparq.geom.runtree import pairs_of_runs
+from foparq.geom.segments import ALONG, cannot_meet, contacts, shared
+
+#: a little below the cosine that ``shared`` asks for, so that rounding rejects nothing
+_NEARLY = ALONG - 1e-9
 
 
-class Meetings(NamedTuple):
-    """Pairs of segments i < j, ordered."""
-
-    own: Index  #: (2, k) of one line, not consecutive: they cross or touch
-    along: Index  #: (2, m) of different lines: they run along each other
-
-
-def meetings(lines: Polylines, *, coincide: float) -> Meetings:
-    """Pairs of segments that meet within ``coincide``, in the plane and in depth there.
+def own_meetings(lines: Polylines, *, coincide: float) -> Index:
+    """Pairs of segments of one line that meet within ``coincide``, in the plane and in depth there.
 
     Parameters
     ----------
@@ -28,34 +23,62 @@ def meetings(lines: Polylines, *, coincide: float) -> Meetings:
 
     Returns
     -------
-    Meetings
-        Computed once a tolerance. Does not hold the places where different lines only cross or touch: a crosshatch has
-        a hundred million of them, and no rule asks.
+    (2, k) int
+        Segments i < j, ordered. Consecutive ones are left out.
 
     Notes
     -----
     O(s log s + candidates); memory is bounded by the result, not by the candidates.
     """
-    return lines.kept(("meetings", coincide), lambda: _meetings(lines, coincide + lines.slack))
+    within = coincide + lines.slack
+    turned = lines.plane @ lines.turn
+    start, end = turned[lines.first], turned[lines.first + 1]
+    found = [np.zeros((2, 0), dtype=np.intp)]
+    for i, j in pairs_of_runs(np.minimum(start, end), np.maximum(start, end), lines.segment_offsets, distance=within):
+        one, two = lines.segments(i), lines.segments(j)
+        kept = np.flatnonzero(~cannot_meet(one, two, within=within))
+        met = kept[contacts(one.take(kept), two.take(kept), within=within).meets.any(axis=0)]
+        found.append(np.stack([i[met], j[met]]))
+    return _ordered(np.concatenate(found, axis=1))
 
 
-def _meetings(lines: Polylines, within: float) -> Meetings:
-    none = np.zeros((2, 0), dtype=np.intp)
-    own, along = [none], [none]
+def runs_of_two(lines: Polylines, *, coincide: float) -> Index:
+    """Pairs of segments of different lines that run along each other within ``coincide``, also in depth.
+
+    Parameters
+    ----------
+    lines : Polylines, s segments
+    coincide : float, metres
+        Distance up to which two places are one.
+
+    Returns
+    -------
+    (2, k) int
+        Segments i < j, ordered. Places where lines only cross or touch are left out: a crosshatch has a hundred
+        million of them, and no rule asks.
+
+    Notes
+    -----
+    O(s log s + candidates); memory is bounded by the result, not by the candidates.
+    """
+    within = coincide + lines.slack
+    found = [np.zeros((2, 0), dtype=np.intp)]
     for one, two in lines.tree.pairs(distance=within):
-        i, j = np.minimum(one, two), np.maximum(one, two)
-        same = lines.line[i] == lines.line[j]
-        kept = np.flatnonzero(~same | (j != i + 1))
-        i, j, same = i[kept], j[kept], same[kept]
-        kept = np.flatnonzero(~cannot_meet(lines.segments(i), lines.segments(j), within=within))
-        i, j, same = i[kept], j[kept], same[kept]
-        pair = np.stack([i[same], j[same]])
-        met = contacts(lines.segments(pair[0]), lines.segments(pair[1]), within=within).meets.any(axis=0)
-        own.append(pair[:, met])
-        pair = np.stack([i[~same], j[~same]])
-        run = shared(lines.segments(pair[0]), lines.segments(pair[1]), within=within).length > 0
-        along.append(pair[:, run])
-    return Meetings(_ordered(np.concatenate(own, axis=1)), _ordered(np.concatenate(along, axis=1)))
+        apart = np.flatnonzero(lines.line[one] != lines.line[two])
+        i, j = np.minimum(one[apart], two[apart]), np.maximum(one[apart], two[apart])
+        kept = np.flatnonzero(_parallel(lines, i, j))
+        i, j = i[kept], j[kept]
+        run = np.flatnonzero(shared(lines.segments(i), lines.segments(j), within=within).length > 0)
+        found.append(np.stack([i[run], j[run]]))
+    return _ordered(np.concatenate(found, axis=1))
+
+
+def _parallel(lines: Polylines, i: Index, j: Index) -> Flags:
+    """False (k,) where two segments are turned too far to run along each other; a rejection before the exact test."""
+    step = lines.way
+    along = step[i, 0] * step[j, 0] + step[i, 1] * step[j, 1]
+    parallel: Flags = np.abs(along) >= _NEARLY * lines.step[i] * lines.step[j]
+    return parallel
 
 
 def _ordered(pairs: Index) -> Index:

@@ -120,9 +120,15 @@ class Polylines:
         return np.concatenate([[0], np.cumsum(np.maximum(np.diff(self.offsets) - 1, 0))]).astype(np.intp)
 
     @cached_property
+    def way(self) -> Reals:
+        """(s, 2) from the start to the end of each segment."""
+        step: Reals = self.plane[self.first + 1] - self.plane[self.first]
+        return step
+
+    @cached_property
     def step(self) -> Reals:
         """(s,) planar length of each segment."""
-        length: Reals = np.hypot(*(self.plane[self.first + 1] - self.plane[self.first]).T)
+        length: Reals = np.hypot(*self.way.T)
         return length
 
     @cached_property
@@ -178,7 +184,7 @@ class Polylines:
 
         Boxes around segments are thin in this frame: a hatch drawn askew costs no more than an upright one.
         """
-        step = self.plane[self.first + 1] - self.plane[self.first]
+        step = self.way
         long = np.flatnonzero((self.step > 0) & (self.step < np.inf))
         if not len(long):
             return np.eye(2)
