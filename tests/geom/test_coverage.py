@@ -65,3 +65,12 @@ def test_sixty_equal_areas_overlap_in_pairs() -> None:
     found = area_overlaps(np.array([shapely.box(0, 0, 1, 1)] * 60), least=1e-4)
     assert len(found.area) == 60 * 59 / 2
     assert found.area == pytest.approx(np.ones(1770))
+
+
+def test_nested_areas_have_the_inner_one_in_common() -> None:
+    areas = np.array([shapely.box(-n, -n, n, n) for n in range(1, 501)])[::-1]
+    found = area_overlaps(areas, least=1e-4)
+    assert len(found.area) == 500 * 499 / 2
+    assert np.all(found.smaller > found.larger)
+    assert found.area == pytest.approx(shapely.area(areas[found.smaller]))
+    assert shapely.equals(found.common, areas[found.smaller]).all()

@@ -7,12 +7,14 @@ import numpy as np
 import shapely
 
 from foparq.columns import Geometries, Index, Reals
+from foparq.geom.parts import without_empty_holes
 from foparq.geom.ranks import area_ranks
 from foparq.geom.rounding import EARTH, origin_of, slack_of
 
 #: corners sharper than this many times the growth are cut, so that growing stays near
 _MITRE = 5.0
 _BLOCK = 1000  #: pairs of a gap and an area looked at in one step
+_STEP = 200  #: areas compared with all in one step
 _POLYGON = shapely.GeometryType.POLYGON
 
 
@@ -52,21 +54,29 @@ def area_overlaps(areas: Geometries, *, least: float) -> AreaOverlaps:
     O(n log n + pairs that touch). Depth is not looked at.
     """
     local, origin = _near_zero(areas)
-    i, j = shapely.STRtree(local).query(local, predicate="intersects")
-    i, j = i[i < j], j[i < j]
-    common = shapely.intersection(local[i], local[j])
-    area = shapely.area(common)
-    over = np.flatnonzero(
-        area > least + slack_of(shapely.get_coordinates(areas)) * shapely.length(common) + 1e-9 * least
-    )
+    shapely.prepare(local)
+    tree = shapely.STRtree(local)
     # Whichever comes first in the file, the smaller of two areas is the one at fault.
     rank = area_ranks(areas)
-    larger = (rank[j] < rank[i])[over]
-    first, second = np.where(larger, j[over], i[over]), np.where(larger, i[over], j[over])
-    order = np.lexsort((first, second))
-    return AreaOverlaps(
-        first[order], second[order], _moved(_polygons_only(common[over][order]), origin), area[over][order]
-    )
+    slack = slack_of(shapely.get_coordinates(areas))
+    nothing = np.empty(0, dtype=np.intp)
+    found = [AreaOverlaps(nothing, nothing, np.empty(0, dtype=object), np.empty(0))]
+    for start in range(0, len(areas), _STEP):
+        i, j = tree.query(local[start : start + _STEP], predicate="intersects")
+        i += start
+        i, j = i[rank[j] < rank[i]], j[rank[j] < rank[i]]
+        inner = shapely.covers(local[j], local[i])
+        # What lies within another is what they have in common.
+        common = areas[i]
+        common[~inner] = shapely.intersection(local[i[~inner]], local[j[~inner]])
+        area = shapely.area(common)
+        over = area > least + slack * shapely.length(common) + 1e-9 * least
+        partly = over & ~inner
+        common[partly] = _moved(_polygons_only(common[partly]), origin)
+        found.append(AreaOverlaps(j[over], i[over], common[over], area[over]))
+    larger, smaller, common, area = (np.concatenate(column) for column in zip(*found, strict=True))
+    order = np.lexsort((larger, smaller))
+    return AreaOverlaps(larger[order], smaller[order], common[order], area[order])
 
 
 def coverage_gaps(areas: Geometries, *, coincide: float, most: float) -> Gaps:
@@ -152,7 +162,7 @@ def _grown(shapes: Geometries, by: float) -> Geometries:
 def _near_zero(areas: Geometries) -> tuple[Geometries, Reals]:
     """The areas moved to near zero, where computing loses no digits, and by how much."""
     origin = origin_of(shapely.get_coordinates(areas))
-    return _moved(areas, -origin), origin
+    return _moved(without_empty_holes(areas), -origin), origin
 
 
 def _moved(shapes: Geometries, by: Reals) -> Geometries:

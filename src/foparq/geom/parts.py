@@ -37,6 +37,20 @@ def rings_of(polygons: Geometries) -> tuple[Geometries, Index]:
     return rings[there], owner[there]
 
 
+def without_empty_holes(polygons: Geometries) -> Geometries:
+    """The same polygons (n,), those with a hole of no vertex built anew: GEOS ends the process when it prepares one."""
+    rings, owner = shapely.get_rings(polygons, return_index=True)
+    concerned = np.unique(owner[shapely.is_empty(rings)])
+    if not len(concerned):
+        return polygons
+    built = polygons.copy()
+    first, last = np.searchsorted(owner, concerned), np.searchsorted(owner, concerned, side="right")
+    for row, start, stop in zip(concerned.tolist(), first.tolist(), last.tolist(), strict=True):
+        shell, *holes = rings[start:stop]
+        built[row] = shapely.Polygon(shell, [hole for hole in holes if not hole.is_empty])
+    return built
+
+
 def is_finite(geometry: Geometries) -> Flags:
     """True (n,) where every coordinate in the plane is a finite number; also where there is none."""
     coordinates, row = shapely.get_coordinates(geometry, return_index=True)
