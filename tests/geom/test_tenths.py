@@ -57,7 +57,7 @@ def test_ends_are_what_the_definitions_say(lines: list[Way], reach: int) -> None
         assert (ends.line[n], not ends.forward[n]) == (want.line, want.last)
         assert EndKind(ends.kind[n]).name.lower() == want.kind, want
         assert ends.size[n] == pytest.approx(want.size, abs=1e-7), want
-        assert ends.other[n] == (min(want.others) if want.others else NOBODY)
+        assert ends.other[n] in (want.others or {NOBODY})
 
 
 def kind_by(distance: float, beyond: EndKind) -> EndKind:
@@ -114,12 +114,12 @@ def test_a_line_is_closed_up_to_the_tolerance(opening: int) -> None:
     assert len(classify_ends(table(line), coincide=COINCIDE, reach=REACH).line) == (0 if opening <= 5 else 2)
 
 
-def test_of_lines_at_one_distance_the_first_is_named() -> None:
+def test_of_lines_at_one_distance_the_leftmost_is_named() -> None:
     short = tenths((0, 0), (0, -900))
     left, right = tenths((-9, 20), (-9, 900)), tenths((9, 20), (9, 900))
-    for lines in ((left, right), (right, left)):
+    for lines, named in (((left, right), 1), ((right, left), 2)):
         ends = classify_ends(table(short, *lines), coincide=COINCIDE, reach=REACH)
-        assert (ends.kind[0], ends.other[0]) == (EndKind.UNDERSHOOT, 1)
+        assert (ends.kind[0], ends.other[0]) == (EndKind.UNDERSHOOT, named)
 
 
 def test_the_last_meeting_is_the_one_nearest_to_the_end() -> None:
