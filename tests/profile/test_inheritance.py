@@ -55,10 +55,8 @@ def test_a_tolerance_of_nothing_asks_for_no_infinite_fineness() -> None:
 def test_an_element_stays_only_if_all_its_rules_do() -> None:
     whole = load_profile("et-doc-foparq-a")
     chosen = choose(whole, ["undershoot"])
-    assert all(set(element.rules) <= {"undershoot"} for element in chosen.elements)
-    assert {element.id for element in whole.elements if not element.rules} <= {
-        element.id for element in chosen.elements
-    }
+    assert all(set(element.uses) <= {"undershoot"} for element in chosen.elements)
+    assert {element.id for element in whole.elements if not element.uses} <= {element.id for element in chosen.elements}
     assert "Q3-dangle" not in {element.id for element in chosen.elements}
 
 

@@ -219,7 +219,7 @@ def test_the_list_of_files_is_bounded(tmp_path: Path, monkeypatch: pytest.Monkey
         ("link.dxf", "read.path-outside"),
         ("folder/outside.dxf", "read.path-outside"),
         ("/etc/passwd", "read.path-absolute"),
-        ("C:/x.dxf", "read.path-address"),
+        ("C:/x.dxf", "read.path-absolute"),
         ("\\\\server\\share\\x.dxf", "read.path-absolute"),
         ("/vsicurl/http://example.org/x.gpkg", "read.path-address"),
         ("/vsizip/x.zip/x.shp", "read.path-address"),
@@ -317,7 +317,7 @@ def crashing(*_: object, **__: object) -> NoReturn:
 
 def test_a_reader_without_end_is_a_refused_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     geopackage(tmp_path / "a.gpkg")
-    monkeypatch.setattr(module, "read_gis", endless)
+    monkeypatch.setattr("foparq.read.gis.reader.read_gis", endless)
     source = only(take(tmp_path, manifest(drawing=[{"path": "a.gpkg"}]), seconds=1))
     assert (source.status, source.error, dict(source.fields)["seconds"]) == (SourceStatus.REFUSED, "read.too-slow", 1)
 
@@ -325,7 +325,7 @@ def test_a_reader_without_end_is_a_refused_file(tmp_path: Path, monkeypatch: pyt
 def test_a_crash_of_a_reader_is_told_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     geopackage(tmp_path / "a.gpkg")
     drawing(tmp_path / "b.dxf")
-    monkeypatch.setattr(module, "read_gis", crashing)
+    monkeypatch.setattr("foparq.read.gis.reader.read_gis", crashing)
     stated = manifest(drawing=[{"path": "a.gpkg"}, {"path": "b.dxf"}])
     delivered, crashes = read_delivery(tmp_path, stated, "", profile=profile(), scale=50)
     assert [(source.status.value, source.error) for source in delivered.sources] == [
