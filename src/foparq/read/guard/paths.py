@@ -41,7 +41,7 @@ def inside(root: Path, named: str) -> Path:
         raise UnsafeError("read.path-odd", file=named, example=example)
     if named.startswith(("/vsi", "<")):
         raise UnsafeError("read.path-address", file=named, example=example)
-    if PurePosixPath(named).is_absolute() or PureWindowsPath(named).anchor:
+    if PurePosixPath(named).is_absolute() or (PureWindowsPath(named).anchor and not _SCHEME.match(named)):
         raise UnsafeError("read.path-absolute", file=named, example=example)
     if len(named) > _LONGEST:
         raise UnsafeError("read.path-odd", file=f"{named[:_SHOWN]}...", example=example)
