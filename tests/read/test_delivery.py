@@ -219,7 +219,7 @@ def test_the_list_of_files_is_bounded(tmp_path: Path, monkeypatch: pytest.Monkey
         ("link.dxf", "read.path-outside"),
         ("folder/outside.dxf", "read.path-outside"),
         ("/etc/passwd", "read.path-absolute"),
-        ("C:/x.dxf", "read.path-absolute"),
+        ("C:/x.dxf", "read.path-address"),
         ("\\\\server\\share\\x.dxf", "read.path-absolute"),
         ("/vsicurl/http://example.org/x.gpkg", "read.path-address"),
         ("/vsizip/x.zip/x.shp", "read.path-address"),

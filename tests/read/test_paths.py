@@ -55,7 +55,7 @@ def test_a_file_inside_need_not_exist(station: Path) -> None:
     ("named", "message"),
     [
         ("", "read.path-odd"), ("  ", "read.path-odd"), ("a\x1fb.dxf", "read.path-odd"), ("a\nb.dxf", "read.path-odd"),
-        ("http://x/y.dxf", "read.path-address"), ("file:///x", "read.path-address"), ("C:x.dxf", "read.path-absolute"),
+        ("http://x/y.dxf", "read.path-address"), ("file:///x", "read.path-address"), ("C:x.dxf", "read.path-address"),
         ("/vsizip/x.zip", "read.path-address"), ("<xml>", "read.path-address"),
         ("/etc/passwd", "read.path-absolute"), ("\\\\server\\x", "read.path-absolute"), ("\\x", "read.path-absolute"),
         ("..", "read.path-outside"), ("../x.dxf", "read.path-outside"),
