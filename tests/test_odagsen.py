@@ -188,7 +188,7 @@ def _reason(single: Drawing, line: int, *, last: bool, distance: float, kind: st
     assert true is not None
     assert (true.kind, pytest.approx(true.size, abs=1e-7)) == (kind, size), "foparq departs from its own definition"
     place = shapely.Point(single.walked(line, last=last)[0, :2])
-    others = single.others(line, last=last, reach=REACH)
+    others = single.others(line, last=last, reach=REACH, coincide=COINCIDE)
     clear = float(shapely.distance(place, single.flat[others]).min(initial=np.inf))
     own = np.setdiff1d(np.flatnonzero(single.own == line), others)
     if clear > distance + 1e-9:

@@ -31,16 +31,21 @@ class Drawing:
         self.flat = shapely.linestrings(np.stack([start[:, :2], end[:, :2]], axis=1))
         self.z = np.stack([start[:, 2], end[:, 2]])
 
+    def strokes(self, coincide: float) -> list[int]:
+        """Lines that are no longer than a point."""
+        steps = [np.linalg.norm(np.diff(line, axis=0), axis=1).sum() for line in self.lines]
+        return [n for n, length in enumerate(steps) if length <= coincide + EPS]
+
     def walked(self, line: int, *, last: bool) -> NDArray[np.float64]:
         return self.lines[line][::-1] if last else self.lines[line]
 
-    def others(self, line: int, *, last: bool, reach: float) -> NDArray[np.intp]:
-        """Segments of other lines, and those of the line after it has left the circle around its end."""
+    def others(self, line: int, *, last: bool, reach: float, coincide: float) -> NDArray[np.intp]:
+        """Segments of other lines, and those of the line after it has left the circle around its end; no strokes."""
         way = self.walked(line, last=last)
         outside = np.flatnonzero(np.hypot(*(way[:, :2] - way[0, :2]).T) > reach + EPS)
         left = outside[0] if len(outside) else len(way)
         step = len(way) - 2 - self.pos if last else self.pos
-        return np.flatnonzero((self.own != line) | (step >= left))
+        return np.flatnonzero(((self.own != line) | (step >= left)) & ~np.isin(self.own, self.strokes(coincide)))
 
 
 def classify(drawing: Drawing, line: int, *, last: bool, coincide: float, reach: float) -> End | None:
@@ -48,13 +53,17 @@ def classify(drawing: Drawing, line: int, *, last: bool, coincide: float, reach:
     way = drawing.walked(line, last=last)
     if np.linalg.norm(way[0] - way[-1]) <= coincide + EPS:
         return None
-    around = drawing.others(line, last=last, reach=reach)
+    around = drawing.others(line, last=last, reach=reach, coincide=coincide)
     near = drawing.flat[around]
     place = shapely.Point(way[0, :2])
     gap = shapely.distance(near, place)
     drop = np.abs(_depth(drawing, around, _share(near, place)) - way[0, 2])
-    back = drawing.others(line, last=last, reach=coincide)
+    back = drawing.others(line, last=last, reach=coincide, coincide=coincide)
     if _met(drawing, back, place, way[0, 2], coincide):
+        return End(line, last, "connected", 0.0, frozenset())
+    if any(
+        _met(drawing, back, shapely.Point(tip[:2]), tip[2], coincide) for tip in _reached(drawing, way[0], coincide)
+    ):
         return End(line, last, "connected", 0.0, frozenset())
     passed, crossed = _last_meeting(drawing, way, around, coincide, reach)
     if coincide + EPS < passed < np.inf:
@@ -66,6 +75,20 @@ def classify(drawing: Drawing, line: int, *, last: bool, coincide: float, reach:
             line, last, "undershoot", float(least), frozenset(drawing.own[around[missed <= least + EPS]].tolist())
         )
     return End(line, last, "free", reach, frozenset())
+
+
+def _reached(drawing: Drawing, place: NDArray[np.float64], coincide: float) -> list[NDArray[np.float64]]:
+    """Ends of all strokes that lead on from a place, from end to end."""
+    waiting = [(drawing.lines[n][0], drawing.lines[n][-1]) for n in drawing.strokes(coincide)]
+    reached = [place]
+    for here in reached:
+        for tips in list(waiting):
+            if any(
+                np.hypot(*(tip - here)[:2]) <= coincide + EPS and abs((tip - here)[2]) <= coincide + EPS for tip in tips
+            ):
+                waiting = [other for other in waiting if other is not tips]
+                reached += tips
+    return reached[1:]
 
 
 def _met(drawing: Drawing, rows: NDArray[np.intp], place: shapely.Point, depth: float, coincide: float) -> bool:

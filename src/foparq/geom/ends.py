@@ -19,6 +19,7 @@ from foparq.geom.polylines import Polylines, Segments
 from foparq.geom.ragged import last_not_above, ragged
 from foparq.geom.ranks import line_ranks
 from foparq.geom.segments import at_share, cannot_meet, contacts, nearest_share
+from foparq.geom.strokes import joints, near_tips
 
 NOBODY = -1
 
@@ -70,15 +71,19 @@ def classify_ends(lines: Polylines, *, coincide: float, reach: float) -> Ends:
 
 
 def _classify(lines: Polylines, within: float, radius: float, reach: float) -> Ends:
+    short = lines.length_in_space <= within
     line, vertex, forward = _ends(lines, within)
     kind = np.full(len(line), EndKind.CONNECTED, dtype=np.int8)
     size, other = np.zeros(len(line)), np.full(len(line), NOBODY, dtype=np.intp)
     loose = np.flatnonzero(~_share_an_end(lines, vertex, within))
     left = leaving(lines, vertex[loose], forward[loose], radius=radius)
     back = leaving(lines, vertex[loose], forward[loose], radius=within)
-    asked = _Asked(lines, line[loose], vertex[loose], forward[loose], left)
+    asked = _Asked(lines, line[loose], vertex[loose], forward[loose], left, short)
 
     gap, near, connected = _nearest(asked, back, within, radius)
+    dangling = np.flatnonzero(~connected)
+    if short.any():
+        connected[dangling[_joined(asked.take(dangling), back[dangling], within)]] = True
     passed, crossed = np.full(len(loose), np.inf), np.full(len(loose), NOBODY, dtype=np.intp)
     dangling = np.flatnonzero(~connected)
     passed[dangling], crossed[dangling] = _last_meeting(asked.take(dangling), within, radius)
@@ -99,15 +104,18 @@ def _classify(lines: Polylines, within: float, radius: float, reach: float) -> E
 class _Asked:
     """Ends that are looked at, with what is needed to tell their other linework."""
 
-    def __init__(self, lines: Polylines, line: Index, vertex: Index, forward: Flags, left: Index) -> None:
+    def __init__(self, lines: Polylines, line: Index, vertex: Index, forward: Flags, left: Index, short: Flags) -> None:
         self.lines, self.line, self.vertex, self.forward, self.left = lines, line, vertex, forward, left
+        self.short = short  #: (n,) lines that are no linework by themselves
 
     def take(self, rows: Index) -> "_Asked":
-        return _Asked(self.lines, self.line[rows], self.vertex[rows], self.forward[rows], self.left[rows])
+        return _Asked(self.lines, self.line[rows], self.vertex[rows], self.forward[rows], self.left[rows], self.short)
 
-    def others(self, end: Index, segment: Index) -> Flags:
-        """True where the segment is other linework of the end."""
-        other: Flags = (self.lines.line[segment] != self.line[end]) | self.beyond(self.left, end, segment)
+    def others(self, end: Index, segment: Index, left: Index | None = None) -> Flags:
+        """True where the segment is other linework of the end, its own line from the vertex ``left`` on included."""
+        of = self.lines.line[segment]
+        own = self.beyond(self.left if left is None else left, end, segment)
+        other: Flags = ~self.short[of] & ((of != self.line[end]) | own)
         return other
 
     def beyond(self, left: Index, end: Index, segment: Index) -> Flags:
@@ -152,8 +160,7 @@ def _nearest(asked: _Asked, back: Index, within: float, radius: float) -> tuple[
     points, depth = lines.plane[asked.vertex], lines.depth[asked.vertex]
     turned = points @ lines.turn
     for end, segment in lines.tree.query(turned, turned, distance=radius):
-        mine = lines.line[segment] == asked.line[end]
-        kept = np.flatnonzero(~mine | asked.beyond(back, end, segment))
+        kept = np.flatnonzero(asked.others(end, segment, back))
         at, row = end[kept], segment[kept]
         near = lines.segments(row)
         share = nearest_share(points[at], near.start, near.end)
@@ -165,6 +172,26 @@ def _nearest(asked: _Asked, back: Index, within: float, radius: float) -> tuple[
         far = np.flatnonzero((apart <= radius + 2 * lines.slack) & asked.others(at, row))
         _keep_least(lines, gap, line, at[far], apart[far], lines.line[row[far]])
     return gap, line, connected
+
+
+def _joined(asked: _Asked, back: Index, within: float) -> Index:
+    """Ends (k,) that meet other linework through lines that are no longer than a point."""
+    lines = asked.lines
+    found = joints(lines, asked.short, within=within)
+    end, joint = near_tips(lines, found, asked.vertex, within=within)
+    touched, line = np.unique(np.stack([found.touching, lines.line[found.segment]]), axis=1)
+    several = np.bincount(touched, minlength=int(joint.max()) + 1 if len(joint) else 0)
+    alone = np.full(len(several), NOBODY, dtype=np.intp)
+    alone[touched] = line
+    met = (several[joint] > 1) | ((several[joint] == 1) & (alone[joint] != asked.line[end]))
+    # A joint that touches the end's own line only: elsewhere, or at the end alone?
+    own = np.flatnonzero((several[joint] == 1) & ~met)
+    order = np.argsort(found.touching, kind="stable")
+    first, last = (np.searchsorted(found.touching[order], joint[own], side=side) for side in ("left", "right"))
+    of, at = ragged(first, last - first)
+    back_again = asked.beyond(back, end[own][of], found.segment[order[at]])
+    met[own[of[back_again]]] = True
+    return np.unique(end[met])
 
 
 def _last_meeting(asked: _Asked, within: float, radius: float) -> tuple[Reals, Index]:

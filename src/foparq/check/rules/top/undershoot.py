@@ -17,13 +17,15 @@ def undershoot(lines: Lines, *, coincide: Metres, reach: Metres) -> Hits:
     An *end* is the first or last vertex of a line whose two ends are apart by more than ``coincide``. *Other linework*
     is every segment of any other line, and the segments of the line itself that come after the line, followed from the
     end, has left the circle of radius ``reach`` around it: a ring left open counts, the next small segments of a curve
-    do not. The distance is that to the nearest place in the plane, joined with the difference in depth there.
+    do not. The distance is that to the nearest place in the plane, joined with the difference in depth there. Lines no
+    longer than ``coincide`` are no other linework, so that a dot hides nothing; they join what they touch.
 
     An end is *connected* if other linework is not farther than ``coincide`` in the plane, and not farther in depth
-    there; or if its own line comes back to it as near, having left the circle of radius ``coincide``. An end that is
-    not connected is an *overshoot* (TOP012) if the line, followed back for at most ``reach``, meets other linework.
-    Otherwise it is an **undershoot** if the nearest other linework is at a distance d, coincide < d <= reach. Otherwise
-    it is a *free end* (TOP013). Every end is exactly one of the four.
+    there; or if its own line comes back to it as near, having left the circle of radius ``coincide``; or if a chain of
+    lines no longer than ``coincide``, end near end, leads from it to either. An end that is not connected is an
+    *overshoot* (TOP012) if the line, followed back for at most ``reach``, meets other linework. Otherwise it is an
+    **undershoot** if the nearest other linework is at a distance d, coincide < d <= reach. Otherwise it is a *free end*
+    (TOP013). Every end is exactly one of the four.
 
     Parameters
     ----------
@@ -35,8 +37,8 @@ def undershoot(lines: Lines, *, coincide: Metres, reach: Metres) -> Hits:
     Returns
     -------
     Hits
-        One an end: place is the end, size the distance d, other the nearest line (of
-        equals the longest, then the first by place).
+        One an end: place is the end, size the distance d, other the nearest line (of equals the longest, then the
+        first by place).
 
     Notes
     -----
