@@ -31,10 +31,12 @@ from foparq.read.delivery import read_delivery, read_loose
 from foparq.read.guard.parent import guarded
 from foparq.read.guard.stream import Stopped, streamed
 from foparq.read.versions import reader_versions
+from foparq.report.files import Written, writable, write_reports
 from foparq.report.record import AuditRecord
 from foparq.units import parse_scale
 
 MANIFEST = "delivery.toml"
+OUT = "audit"  #: folder of the reports, beside the manifest
 
 Progress = Callable[[str], None]
 
@@ -106,6 +108,39 @@ def audit(
     delivery, log = read_delivery(path.parent, manifest, path.name, profile=profile, scale=scale, progress=progress)
     spoken = language or manifest.delivery.language or otherwise
     return _judged(delivery, log, profile, scale, spoken, progress, loose=False)
+
+
+def audit_to(
+    place: Path, out: Path | None = None, *, language: str | None = None, otherwise: str = "en",
+    progress: Progress | None = None,
+) -> Written:  # fmt: skip
+    """Audit one delivery and write its reports into a folder.
+
+    Parameters
+    ----------
+    place : Path
+        The delivery's folder, or its manifest.
+    out : Path, optional
+        Where the reports go; ``audit/`` beside the manifest if left out.
+    language, otherwise, progress
+        As in :func:`audit`.
+
+    Returns
+    -------
+    Written
+        What :func:`foparq.evaluate.exit_of.exit_of` makes an exit code of is its ``record.quality``.
+
+    Raises
+    ------
+    UsageError
+        If the manifest or the profile is wrong.
+    WriteError
+        If the reports cannot be written, told before any work is done where it can be known.
+    """
+    folder = out or find_manifest(place).parent / OUT
+    writable(folder)
+    done = audit(place, language=language, otherwise=otherwise, progress=progress)
+    return write_reports(done.record, done.log, folder, progress)
 
 
 def check_files(

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.evaluate.deliveries import counted, drawing, drawn, judge, listed, messages, outcome, spec
 
-from foparq.evaluate.balance import Gap, balances
+from foparq.evaluate.balance import Incomparable, balances
 from foparq.evaluate.quality import ElementStatus, Verdict
 
 UNDECIDED = ElementStatus.UNDECIDED
@@ -23,15 +23,15 @@ def test_names_are_told_apart_without_regard_to_case_and_shown_as_the_list_has_t
 @pytest.mark.parametrize("count", [0, 1, 2])
 def test_features_on_a_drawing_of_no_facade_leave_it_open(count: int) -> None:
     (row,) = balances(listed(("window", "N", 2)), counted(("window", "", count), ("window", "N", 2)))
-    assert row.gap is (Gap.FACADE if count else Gap.NONE)
+    assert row.gap is (Incomparable.FACADE if count else Incomparable.NONE)
     assert row.delivered == (0 if count else 2)
 
 
 def test_a_list_that_names_facades_of_some_rows_only_is_vague() -> None:
     rows = balances(listed(("window", "N", 2), ("window", "", 1)), counted(("window", "N", 3)))
-    assert {row.gap for row in rows} == {Gap.FACADE}
+    assert {row.gap for row in rows} == {Incomparable.FACADE}
     alone = balances(listed(("window", "", 3)), counted(("window", "N", 2), ("window", "S", 1), ("window", "", 1)))
-    assert [(row.facade, row.delivered, row.gap) for row in alone] == [("", 4, Gap.NONE)]
+    assert [(row.facade, row.delivered, row.gap) for row in alone] == [("", 4, Incomparable.NONE)]
 
 
 def test_what_is_drawn_where_the_list_is_silent() -> None:
@@ -41,8 +41,9 @@ def test_what_is_drawn_where_the_list_is_silent() -> None:
     )
     found = {row.label: (row.gap, row.surplus) for row in rows}
     assert found == {
-        "door / S": (Gap.UNBOUND, 0), "niche / N": (Gap.UNLISTED, 1), "window / E": (Gap.UNLISTED, 1),
-        "window / N": (Gap.NONE, 0), "window / S": (Gap.NONE, 1),
+        "door / S": (Incomparable.UNBOUND, 0), "niche / N": (Incomparable.UNLISTED, 1),
+        "window / E": (Incomparable.UNLISTED, 1),
+        "window / N": (Incomparable.NONE, 0), "window / S": (Incomparable.NONE, 1),
     }  # fmt: skip
 
 

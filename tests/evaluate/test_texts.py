@@ -9,7 +9,7 @@ import pytest
 
 import foparq.evaluate
 from foparq.check.registry import all_rules
-from foparq.evaluate.balance import Gap
+from foparq.evaluate.balance import Incomparable
 from foparq.evaluate.measures import measure_counting, measures
 from foparq.evaluate.quality import Verdict
 from foparq.findings.because import Because
@@ -23,7 +23,7 @@ SHAPED = r"^[a-z]+\.[a-z-]+$"
 
 def reasons() -> set[str]:
     """Message ids that the evaluation may give, read from its source."""
-    found = {f"features.{gap.value}" for gap in Gap if gap is not Gap.NONE}
+    found = {f"features.{gap.value}" for gap in Incomparable if gap is not Incomparable.NONE}
     for path in sorted(CODE.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Constant) and isinstance(node.value, str) and re.match(SHAPED, node.value):

@@ -19,7 +19,6 @@ from foparq.errors import ManifestError, UnsafeError
 from foparq.model.delivery import Delivery, Source, SourceStatus
 from foparq.profile.manifest import Manifest
 from foparq.profile.schema import LimitsSpec, Profile, ReadingSpec
-from foparq.read import delivery as module
 from foparq.read.delivery import read_delivery, read_loose
 from foparq.read.guard import paths
 from foparq.read.guard.paths import inside
@@ -204,7 +203,7 @@ def test_the_list_of_files_is_bounded(tmp_path: Path, monkeypatch: pytest.Monkey
     for number in range(12):
         (tmp_path / f"{number:02}.jpg").touch()
     monkeypatch.setattr(paths, "MOST_FILES", 10)
-    monkeypatch.setattr(module, "MOST_FILES", 10)
+    monkeypatch.setattr("foparq.read.intake.MOST_FILES", 10)
     delivered = take(tmp_path, manifest())
     assert [source.status for source in delivered.sources[:10]] == [SourceStatus.UNNAMED] * 10
     assert (delivered.sources[10].error, len(delivered.sources)) == ("read.too-many-files", 11)

@@ -10,9 +10,9 @@ from foparq.audit import check_files
 from foparq.check.catalogue import cards, find_card
 from foparq.check.registry import required_by
 from foparq.cli.common import progress_on_stderr
-from foparq.cli.exit_of import exit_of
 from foparq.cli.show import show
 from foparq.errors import UsageError
+from foparq.evaluate.exit_of import exit_of
 from foparq.profile.adjust import choose, with_settings
 from foparq.profile.load import load_profile
 from foparq.profile.schema import Profile

@@ -13,8 +13,8 @@ from pathlib import Path
 import click
 
 from foparq import __version__
-from foparq.cli.exits import Exit
-from foparq.errors import FoparqError, InputError, UsageError, WriteError
+from foparq.errors import FoparqError
+from foparq.exits import Exit, exit_of_error
 from foparq.report.harmless import log_text
 from foparq.report.words import LANGUAGES, Words, language_of
 from foparq.resources import shipped
@@ -66,7 +66,7 @@ def run(arguments: Sequence[str]) -> int:
     Returns
     -------
     int
-        Exit code, see :class:`foparq.cli.exits.Exit`.
+        Exit code, see :class:`foparq.exits.Exit`.
     """
     _open_streams()
     asked = _asked_language(arguments)
@@ -92,7 +92,7 @@ def _last_word(error: BaseException, say: Words) -> Exit:
     if isinstance(error, click.Abort | KeyboardInterrupt):
         code, text = Exit.STOPPED, say("cli.aborted")
     elif isinstance(error, FoparqError):
-        code, text = _exit_of(error), f"{say('cli.error')}: {say.error(error)}"
+        code, text = exit_of_error(error), f"{say('cli.error')}: {say.error(error)}"
     elif isinstance(error, OSError) and error.filename is None:  # standard output is full or gone
         _give_up_output()
         if error.errno == errno.EPIPE:
@@ -134,12 +134,6 @@ def _kept_traceback() -> str:
     ) as stream:
         stream.write(log_text([traceback.format_exc()]))
     return stream.name
-
-
-def _exit_of(error: FoparqError) -> Exit:
-    if isinstance(error, InputError):
-        return Exit.REFUSED
-    return Exit.USAGE if isinstance(error, UsageError | WriteError) else Exit.UNDECIDED
 
 
 def _asked_language(arguments: Sequence[str]) -> str | None:

@@ -21,7 +21,7 @@ from foparq.findings.counts import FeatureCounts
 from foparq.model.tables import FeatureList
 
 
-class Gap(StrEnum):
+class Incomparable(StrEnum):
     """Why specified and delivered features cannot be compared."""
 
     NONE = ""
@@ -43,7 +43,7 @@ class Balance:
     pieces: int = 0  #: the most there may be, blocks that may hold several being opened
     accepted: int = 0  #: required ones whose omission is accepted, with evidence
     unproven: int = 0  #: required ones whose omission is said to be accepted, without evidence
-    gap: Gap = Gap.NONE
+    gap: Incomparable = Incomparable.NONE
     hidden: tuple[str, ...] = ()  #: layers of the class with items that nobody sees
 
     @property
@@ -113,7 +113,7 @@ def balances(features: FeatureList, counts: FeatureCounts) -> tuple[Balance, ...
     -------
     tuple of Balance
         A class that is drawn on a facade where the list has none of it is a surplus, as long as the list speaks of both
-        the class and the facade; else it is ``Gap.UNLISTED``.
+        the class and the facade; else it is ``Incomparable.UNLISTED``.
     """
     spelt = _Spelling((features.feature_class, counts.feature_class), (features.facade, counts.facade))
     features = replace(
@@ -145,7 +145,7 @@ def interval(message: str, rows: Iterable[tuple[Balance, int]], **said: object) 
     return because(message, classes=named[:10], n=len(named), **said)
 
 
-def gap_reasons(rows: tuple[Balance, ...], name: str, gaps: tuple[Gap, ...]) -> tuple[Reason, ...]:
+def gap_reasons(rows: tuple[Balance, ...], name: str, gaps: tuple[Incomparable, ...]) -> tuple[Reason, ...]:
     """Reasons for the classes that could not be compared."""
     labels = {gap: [row.label for row in rows if row.gap is gap] for gap in gaps}
     return tuple(
@@ -245,28 +245,31 @@ def _of_class(
     features: FeatureList, name: str, listed: set[str], drawn: Mapping[str, _Drawn], spoken: set[str]
 ) -> list[Balance]:
     if not listed:
-        rows = [Balance(feature_class=name, facade=f, gap=Gap.UNLISTED, **n.row()) for f, n in sorted(drawn.items())]
+        rows = [
+            Balance(feature_class=name, facade=f, gap=Incomparable.UNLISTED, **n.row())
+            for f, n in sorted(drawn.items())
+        ]
         return [row for row in rows if row.delivered]
     vague = ("" in listed and len(listed) > 1) or ("" not in listed and "" in drawn and drawn[""].delivered > 0)
     made = []
     for facade in sorted(listed):
         if listed == {""}:
-            delivered, gap = _Drawn(), Gap.NONE if drawn else Gap.UNBOUND
+            delivered, gap = _Drawn(), Incomparable.NONE if drawn else Incomparable.UNBOUND
             for one in drawn.values():
                 delivered.add(one)
         elif vague:
-            delivered, gap = _Drawn(), Gap.FACADE
+            delivered, gap = _Drawn(), Incomparable.FACADE
         else:
-            delivered, gap = drawn.get(facade, _Drawn()), Gap.NONE if facade in drawn else Gap.UNBOUND
+            delivered, gap = drawn.get(facade, _Drawn()), Incomparable.NONE if facade in drawn else Incomparable.UNBOUND
         made.append(_listed(features, name, facade, delivered, gap))
     if not vague and listed != {""}:
         for facade in sorted(set(drawn) - listed):
-            gap = Gap.NONE if facade in spoken else Gap.UNLISTED
+            gap = Incomparable.NONE if facade in spoken else Incomparable.UNLISTED
             made.append(Balance(feature_class=name, facade=facade, gap=gap, **drawn[facade].row()))
     return [row for row in made if row.facade in listed or row.delivered]
 
 
-def _listed(features: FeatureList, name: str, facade: str, delivered: _Drawn, gap: Gap) -> Balance:
+def _listed(features: FeatureList, name: str, facade: str, delivered: _Drawn, gap: Incomparable) -> Balance:
     rows = (features.feature_class == name) & (features.facade == facade)
     required = rows & (features.use == "required")
     excused = required & (features.accepted != "")

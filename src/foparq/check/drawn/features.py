@@ -22,7 +22,7 @@ from foparq.model.drawing import Drawing
 from foparq.model.items import Role, holders_of
 
 
-class Tally(NamedTuple):
+class Counted(NamedTuple):
     """Features of one class in one drawing."""
 
     fewest: int
@@ -43,7 +43,7 @@ class _Place(NamedTuple):
 @dataclass(slots=True)
 class _Totals:
     spelling: dict[str, set[str]] = field(default_factory=dict)
-    tallies: dict[tuple[str, str], list[Tally]] = field(default_factory=dict)
+    tallies: dict[tuple[str, str], list[Counted]] = field(default_factory=dict)
     unmapped: Counter[str] = field(default_factory=Counter)
     hidden: set[tuple[str, str, str]] = field(default_factory=set)
 
@@ -185,9 +185,9 @@ def _in_plane(drawing: Drawing, rows: Index) -> tuple[Index, Geometries]:
     return rows[finite], shapely.set_coordinates(shapely.force_2d(geometry[finite]), sheet)
 
 
-def _tally(flat: Geometries, places: Sequence[_Place], gap: float) -> Tally:
+def _tally(flat: Geometries, places: Sequence[_Place], gap: float) -> Counted:
     if not len(flat):
-        return Tally(0, 0, 0)
+        return Counted(0, 0, 0)
     loose = np.array([not place.feature for place in places], dtype=bool)
     near = np.full(len(flat), -1, dtype=np.intp)
     if loose.any():
@@ -197,7 +197,7 @@ def _tally(flat: Geometries, places: Sequence[_Place], gap: float) -> Tally:
     hulls, most, pieces = _inserts(flat[~loose], [place for place in places if place.feature], gap)
     every = np.concatenate([alone, hulls])
     count = int(np.count_nonzero(outermost(every, np.zeros(len(every), dtype=np.intp))))
-    return Tally(count, len(alone) + most, len(alone) + pieces)
+    return Counted(count, len(alone) + most, len(alone) + pieces)
 
 
 def _inserts(flat: Geometries, places: Sequence[_Place], gap: float) -> tuple[Geometries, int, int]:

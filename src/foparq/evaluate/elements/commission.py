@@ -3,7 +3,7 @@
 
 from foparq.evaluate.balance import (
     Balance,
-    Gap,
+    Incomparable,
     balances,
     doubtful,
     gap_reasons,
@@ -53,7 +53,7 @@ def commission(spec: CommissionSpec, evidence: Evidence) -> tuple[Element, ...]:
         judgement = nothing or judged(ElementStatus.NOT_ASSESSED, because("features.no-list", element=spec.id))
         return (element(spec, _MEASURE, judgement, scope=scope, limit=limit, comparison="<=", method="directExternal"),)
     every = balances(features, counts)
-    known = [row for row in every if row.gap is Gap.NONE]
+    known = [row for row in every if row.gap is Incomparable.NONE]
     surplus, required = sum(row.surplus for row in known), sum(row.required for row in known)
     delivered = sum(row.delivered for row in known)
     if no_limit is not None or limit is None:
@@ -78,9 +78,9 @@ def commission(spec: CommissionSpec, evidence: Evidence) -> tuple[Element, ...]:
 
 def _judge(spec: CommissionSpec, evidence: Evidence, every: tuple[Balance, ...], limit: float) -> Judgement:
     name = spec.id
-    known = [row for row in every if row.gap is Gap.NONE]
+    known = [row for row in every if row.gap is Incomparable.NONE]
     surplus, required = sum(row.surplus for row in known), sum(row.required for row in known)
-    gaps = gap_reasons(every, name, (Gap.UNLISTED, Gap.UNBOUND, Gap.FACADE))
+    gaps = gap_reasons(every, name, (Incomparable.UNLISTED, Incomparable.UNBOUND, Incomparable.FACADE))
     worst = sorted((row for row in known if row.surplus), key=lambda row: (-row.surplus, row.label))
     fields: dict[str, object] = {
         "element": name, "surplus": surplus, "required": required, "limit": (limit, "1"),

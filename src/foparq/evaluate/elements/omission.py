@@ -3,7 +3,7 @@
 
 from foparq.evaluate.balance import (
     Balance,
-    Gap,
+    Incomparable,
     balances,
     doubtful,
     gap_reasons,
@@ -52,8 +52,8 @@ def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
     if nothing is not None or features is None or counts is None:
         judgement = nothing or judged(ElementStatus.NOT_ASSESSED, because("features.no-list", element=spec.id))
         return (element(spec, _MEASURE, judgement, scope=scope, limit=limit, comparison="<=", method="directExternal"),)
-    every = tuple(row for row in balances(features, counts) if row.gap is not Gap.UNLISTED)
-    known = [row for row in every if row.gap is Gap.NONE]
+    every = tuple(row for row in balances(features, counts) if row.gap is not Incomparable.UNLISTED)
+    known = [row for row in every if row.gap is Incomparable.NONE]
     required, missing = sum(row.required for row in known), sum(row.missing for row in known)
     net = sum(row.missing_net for row in known)
     if no_limit is not None or limit is None:
@@ -82,10 +82,10 @@ def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
 
 def _judge(spec: OmissionSpec, evidence: Evidence, every: tuple[Balance, ...], limit: float) -> Judgement:
     name = spec.id
-    known = [row for row in every if row.gap is Gap.NONE]
+    known = [row for row in every if row.gap is Incomparable.NONE]
     required, total = sum(row.required for row in known), sum(row.required for row in every)
     missing, net = sum(row.missing for row in known), sum(row.missing_net for row in known)
-    gaps = gap_reasons(tuple(row for row in every if row.required), name, (Gap.UNBOUND, Gap.FACADE))
+    gaps = gap_reasons(tuple(row for row in every if row.required), name, (Incomparable.UNBOUND, Incomparable.FACADE))
     if not total:
         return judged(ElementStatus.NOT_ASSESSED, because("omission.nothing-required", element=name))
     if not required:

@@ -9,8 +9,9 @@ from foparq.model.drawing import SkippedReason
 from foparq.model.items import Role
 from foparq.read.dxf.blocks import Census, count_blocks
 from foparq.read.dxf.curves import Point
-from foparq.read.dxf.facts import Common, Facts, InsertFacts, MalformedError, PlaceFacts, common_of, facts_of
+from foparq.read.dxf.facts import MalformedError, common_of, facts_of
 from foparq.read.dxf.kinds import Unseen
+from foparq.read.dxf.records import Common, Facts, InsertFacts, PlaceFacts
 from foparq.read.dxf.structure import Definition, asked, find_definition, model_entities
 from foparq.read.dxf.text import readable
 from foparq.read.dxf.units import Lettered, lettered_dimension

@@ -10,8 +10,8 @@ from foparq.columns import Coordinates
 from foparq.model.drawing import SkippedReason
 from foparq.model.items import Role
 from foparq.read.dxf.curves import Point, Sagitta, TooFineError, flatten_arc, flatten_bulge, flatten_ellipse, to_world
-from foparq.read.dxf.facts import ArcFacts, EllipseFacts, FaceFacts, Facts, LineFacts, PlaceFacts, SplineFacts
 from foparq.read.dxf.kinds import ANNOTATIONS, Unseen
+from foparq.read.dxf.records import ArcFacts, EllipseFacts, FaceFacts, Facts, LineFacts, PlaceFacts, SplineFacts
 from foparq.read.dxf.spline import flatten_spline, open_uniform
 
 _CLOSING = 1e-9  #: share of the extent within which the ends of a closed spline differ by rounding alone

@@ -7,7 +7,6 @@ the entity can be named and the rest of the drawing is read. What is computed fr
 
 import struct
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 from ezdxf.entities.dxfentity import DXFTagStorage
@@ -16,9 +15,19 @@ from ezdxf.math import fit_points_to_cad_cv
 from ezdxf.xclip import XClip
 
 from foparq.model.drawing import SkippedReason
-from foparq.model.items import Role
 from foparq.read.dxf.curves import Point
 from foparq.read.dxf.kinds import UNSEEN, Unseen
+from foparq.read.dxf.records import (
+    ArcFacts,
+    Common,
+    EllipseFacts,
+    FaceFacts,
+    Facts,
+    InsertFacts,
+    LineFacts,
+    PlaceFacts,
+    SplineFacts,
+)
 
 #: what ezdxf lets through when an entity or a file is damaged
 LEAKS: tuple[type[Exception], ...] = (
@@ -30,98 +39,6 @@ LEAKS: tuple[type[Exception], ...] = (
 class MalformedError(Exception):
     """An entity that cannot be understood."""
 
-
-@dataclass(frozen=True, slots=True)
-class Common:
-    """What every entity has."""
-
-    kind: str
-    handle: str
-    layer: str
-    colour: int
-    invisible: bool
-
-
-@dataclass(frozen=True, slots=True)
-class LineFacts:
-    """Straight, unless bulges say otherwise."""
-
-    points: list[Point]
-    bulges: list[float] | None
-    closed: bool
-    extrusion: Point
-
-
-@dataclass(frozen=True, slots=True)
-class ArcFacts:
-    """Arc or circle in its own coordinate system; angles in degrees."""
-
-    centre: Point
-    radius: float
-    start: float
-    end: float
-    full: bool
-    extrusion: Point
-
-
-@dataclass(frozen=True, slots=True)
-class EllipseFacts:
-    """Elliptic arc in world coordinates; parameters in radians."""
-
-    centre: Point
-    major: Point
-    ratio: float
-    start: float
-    end: float
-    extrusion: Point
-
-
-@dataclass(frozen=True, slots=True)
-class SplineFacts:
-    """B-spline; ``knots`` and ``weights`` empty if the file holds none."""
-
-    control: list[Point]
-    knots: list[float]
-    weights: list[float]
-    degree: int
-    closed: bool
-
-
-@dataclass(frozen=True, slots=True)
-class FaceFacts:
-    """Three or four corners."""
-
-    corners: list[Point]
-    extrusion: Point
-
-
-@dataclass(frozen=True, slots=True)
-class PlaceFacts:
-    """A position."""
-
-    point: Point
-    extrusion: Point
-    role: Role | None = None  #: where the entity type does not tell
-
-
-@dataclass(frozen=True, slots=True)
-class InsertFacts:
-    """A block reference."""
-
-    name: str
-    point: Point
-    scale: Point
-    rotation: float
-    extrusion: Point
-    rows: int
-    columns: int
-    row_spacing: float
-    column_spacing: float
-    attributes: tuple[Any, ...]
-    clipped: bool
-
-
-Facts = LineFacts | ArcFacts | EllipseFacts | SplineFacts | FaceFacts | PlaceFacts | InsertFacts | Unseen
 
 _UP: Point = (0.0, 0.0, 1.0)
 

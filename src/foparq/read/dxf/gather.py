@@ -18,7 +18,7 @@ _EXAMPLES = 5  #: handles kept for a reason of skipping
 _ROLES = tuple(Role)
 
 
-class Layers:
+class LayerTable:
     """Layers of a file by number. Number 0 is layer ``"0"``, whose content takes the layer of the insert.
 
     Names are told apart without regard to case, as CAD programs do; the spelling of the layer table wins.
@@ -61,7 +61,7 @@ _Key = tuple[SkippedReason, str, str, str]
 
 
 @dataclass(slots=True)
-class Tally:
+class LeftOut:
     """What is skipped: count and first handles by (reason, kind, layer, name)."""
 
     counts: dict[_Key, int] = field(default_factory=dict)
@@ -93,7 +93,7 @@ class Chunk:
     form: Integers  #: (n,)
     kind: Texts  #: (n,)
     role: Integers  #: (n,) number in ``Role``
-    layer: Integers  #: (n,) number in ``Layers``
+    layer: Integers  #: (n,) number in ``LayerTable``
     handle: Texts  #: (n,)
     item: Texts  #: (n,)
     inserts: Texts  #: (n,)
@@ -154,7 +154,7 @@ class Columns:
         self._geometry.append(_geometry(chunk.vertices, chunk.counts, chunk.form))
         self._chunks.append(replace(chunk, vertices=np.empty((0, 3))))
 
-    def items(self, layers: Layers) -> Items:
+    def items(self, layers: LayerTable) -> Items:
         """All items, in the order of the chunks."""
         if not self._chunks:
             return no_items()

@@ -16,9 +16,9 @@ from foparq.model.drawing import SkippedReason
 from foparq.model.items import Holder
 from foparq.read.dxf.content import MODEL, Content, Insert
 from foparq.read.dxf.curves import axes, cos_sin
-from foparq.read.dxf.facts import InsertFacts
 from foparq.read.dxf.kinds import Unseen
-from foparq.read.dxf.sketch import Builder, Places, texts
+from foparq.read.dxf.records import InsertFacts
+from foparq.read.dxf.sketch import Builder, Placements, texts
 from foparq.read.dxf.units import Lettered
 
 _UNIFORM = 1e-6  #: relative difference of scales within which a dimension keeps its meaning
@@ -45,11 +45,11 @@ def place_contents(
     builder : Builder
         Receives columns, skipped entities and dimensions.
     """
-    unmoved = Places(
+    unmoved = Placements(
         matrix=None, layer=np.zeros(1, dtype=np.int32), hidden=np.zeros(1, dtype=bool),
         inserts=texts([""]), item=texts([""]), holders=texts([""]),
     )  # fmt: skip
-    waiting: dict[str, list[Places]] = {MODEL: [unmoved]}
+    waiting: dict[str, list[Placements]] = {MODEL: [unmoved]}
     for name in order:
         placed = waiting.pop(name, None)
         if placed is None:
@@ -70,10 +70,10 @@ def place_contents(
                 builder.place(insert.attributes, _beside(insert, places, within))
 
 
-def _join(placed: list[Places]) -> Places:
+def _join(placed: list[Placements]) -> Placements:
     if len(placed) == 1:
         return placed[0]
-    return Places(
+    return Placements(
         matrix=np.concatenate([places.matrix for places in placed if places.matrix is not None]),
         layer=np.concatenate([places.layer for places in placed]),
         hidden=np.concatenate([places.hidden for places in placed]),
@@ -83,7 +83,9 @@ def _join(placed: list[Places]) -> Places:
     )
 
 
-def _placed(insert: Insert, position: int, outer: Places, base: tuple[float, float, float], builder: Builder) -> Places:
+def _placed(
+    insert: Insert, position: int, outer: Placements, base: tuple[float, float, float], builder: Builder
+) -> Placements:
     own, cells = _matrices(insert.facts, base)
     matrix = own if outer.matrix is None else _after(outer.matrix, own)
     effective = builder.effective(insert.common, outer)
@@ -94,7 +96,7 @@ def _placed(insert: Insert, position: int, outer: Places, base: tuple[float, flo
     name = handle or f"#{position}"
     names = [name] if cells == 1 else [f"{name}:{cell + 1}" for cell in range(cells)]
     held = [str(Holder(one, builder.layers.names[on], insert.block)) for on in effective.tolist() for one in names]
-    return Places(
+    return Placements(
         matrix=matrix,
         layer=np.repeat(effective, cells),
         hidden=np.repeat(hidden, cells),
@@ -127,7 +129,7 @@ def _after(outer: Reals, own: Reals) -> Reals:
     return joined.reshape(-1, 3, 4)
 
 
-def _beside(insert: Insert, outer: Places, within: Places) -> Places:
+def _beside(insert: Insert, outer: Placements, within: Placements) -> Placements:
     # Attributes stand in the space of the insert; those of further cells are moved with the cell.
     cells = insert.times
     own = np.zeros((cells, 3, 4))
@@ -138,7 +140,7 @@ def _beside(insert: Insert, outer: Places, within: Places) -> Places:
     return replace(within, matrix=matrix)
 
 
-def _place_dimensions(dimensions: list[Lettered], places: Places, builder: Builder) -> None:
+def _place_dimensions(dimensions: list[Lettered], places: Placements, builder: Builder) -> None:
     if not dimensions or places.matrix is None:
         builder.dimensions.extend(dimensions)
         return

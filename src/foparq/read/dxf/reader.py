@@ -21,7 +21,7 @@ from foparq.read.dxf.blocks import Census, admit
 from foparq.read.dxf.content import MODEL, Content, count_contents, read_contents
 from foparq.read.dxf.curves import Sagitta
 from foparq.read.dxf.facts import MalformedError, common_of
-from foparq.read.dxf.gather import Columns, Layers, Tally
+from foparq.read.dxf.gather import Columns, LayerTable, LeftOut
 from foparq.read.dxf.items import place_contents
 from foparq.read.dxf.kinds import ANNOTATIONS, Unseen
 from foparq.read.dxf.load import load_document
@@ -79,7 +79,7 @@ def _read(path: Path, limits: LimitsSpec, sagitta: float, unit: str | None, *, e
     drawn_in = drawing_unit(document.header, unit)
     version = str(document.loaded_dxfversion or "")
     encoding = "utf-8" if version >= _UTF8_SINCE else str(document.encoding)
-    layers = Layers(layer_table(document))
+    layers = LayerTable(layer_table(document))
     contents = read_contents(document, explode=explode)
     census = count_contents(contents)
     model = contents[MODEL]
@@ -87,7 +87,7 @@ def _read(path: Path, limits: LimitsSpec, sagitta: float, unit: str | None, *, e
         raise UnsafeError("dxf.too-many-entities", file=path.name, value=len(model.entities), limit=limits.entities)
     refused = _refused(model, census, limits.entities - len(model.entities))
     absolute = None if drawn_in.metres is None else sagitta / drawn_in.metres
-    builder = Builder(layers, Columns(limits.vertices, path.name), Tally(), Sagitta(absolute), loaded.written)
+    builder = Builder(layers, Columns(limits.vertices, path.name), LeftOut(), Sagitta(absolute), loaded.written)
     with np.errstate(all="ignore"):  # coordinates that are no finite numbers are delivered as they come out
         place_contents(contents, census.order, refused.keys(), census.cyclic, builder)
     items = builder.columns.items(layers)

@@ -11,9 +11,9 @@ from foparq.model.drawing import SkippedReason
 from foparq.model.items import Role
 from foparq.read.dxf.curves import Sagitta
 from foparq.read.dxf.draw import Shape, draw
-from foparq.read.dxf.facts import Common, Facts
-from foparq.read.dxf.gather import FACE, LINE, PLACE, Chunk, Columns, Layers, Tally, role_number
+from foparq.read.dxf.gather import FACE, LINE, PLACE, Chunk, Columns, LayerTable, LeftOut, role_number
 from foparq.read.dxf.kinds import FACES, Unseen
+from foparq.read.dxf.records import Common, Facts
 from foparq.read.dxf.units import Lettered
 
 _LEVELS = 40  #: enlargement beyond 2 ** 40 is no drawing
@@ -23,7 +23,7 @@ Entities = Sequence[tuple[Common, Facts]]
 
 
 @dataclass(slots=True, kw_only=True)
-class Places:
+class Placements:
     """c placements of one definition."""
 
     matrix: Reals | None  #: (c, 3, 4) definition to world; None: one placement, unmoved
@@ -36,9 +36,9 @@ class Places:
     def __len__(self) -> int:
         return len(self.layer)
 
-    def take(self, rows: Index) -> "Places":
+    def take(self, rows: Index) -> "Placements":
         """The chosen placements."""
-        return Places(
+        return Placements(
             matrix=None if self.matrix is None else self.matrix[rows], layer=self.layer[rows], hidden=self.hidden[rows],
             inserts=self.inserts[rows], item=self.item[rows], holders=self.holders[rows],
         )  # fmt: skip
@@ -48,9 +48,9 @@ class Places:
 class Builder:
     """Everything that placing needs and gathers."""
 
-    layers: Layers
+    layers: LayerTable
     columns: Columns
-    tally: Tally
+    tally: LeftOut
     sagitta: Sagitta
     written: frozenset[str] | None  #: handles that the file holds; None: all of them
     dimensions: list[Lettered] = field(default_factory=list)
@@ -59,18 +59,18 @@ class Builder:
         """Handle as the file writes it; ``""`` for one that the parser made up."""
         return common.handle if self.written is None or common.handle in self.written else ""
 
-    def effective(self, common: Common, places: Places) -> Integers:
+    def effective(self, common: Common, places: Placements) -> Integers:
         """(c,) layer at every place: layer 0 takes that of the insert."""
         number = self.layers.number(common.layer)
         return places.layer if number == 0 else np.full(len(places), number, dtype=np.int32)
 
-    def skip(self, unseen: Unseen, common: Common, places: Places) -> None:
+    def skip(self, unseen: Unseen, common: Common, places: Placements) -> None:
         """Count an entity as skipped at every place."""
         numbers, counts = np.unique(self.effective(common, places), return_counts=True)
         for number, count in zip(numbers, counts, strict=True):
             self.tally.add(unseen, common.kind, self.layers.names[number], self.handle(common), int(count))
 
-    def place(self, entities: Entities, places: Places) -> None:
+    def place(self, entities: Entities, places: Placements) -> None:
         """Draw the entities of one definition at every place.
 
         Raises
@@ -127,7 +127,7 @@ def texts(values: Sequence[str]) -> Texts:
     return column
 
 
-def _by_level(places: Places) -> Iterator[tuple[int, Index]]:
+def _by_level(places: Placements) -> Iterator[tuple[int, Index]]:
     """Placements grouped by the power of two that bounds their enlargement."""
     if places.matrix is None:
         yield 0, np.arange(1)
@@ -139,7 +139,7 @@ def _by_level(places: Places) -> Iterator[tuple[int, Index]]:
         yield int(level), np.flatnonzero(levels == level)
 
 
-def _copy(sketch: Chunk, places: Places, builder: Builder) -> None:
+def _copy(sketch: Chunk, places: Placements, builder: Builder) -> None:
     c, n = len(places), len(sketch.counts)
     builder.columns.expect(c * len(sketch.vertices))
     vertices = sketch.vertices

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Layers, layouts and block definitions of a document. Like :mod:`dxf_facts`, only asks and computes nothing."""
+"""Layers, layouts and block definitions of a document; like :mod:`foparq.read.dxf.facts`, only asks."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

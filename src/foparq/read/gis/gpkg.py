@@ -14,7 +14,7 @@ from foparq.profile.schema import LimitsSpec
 from foparq.read.gis.crs import unit_of
 from foparq.read.gis.gpkg_curves import STRAIGHT, chords_of
 from foparq.read.gis.gpkg_safety import Contents, Table, inspect
-from foparq.read.gis.items import Layer, items_of
+from foparq.read.gis.items import LayerRows, items_of
 from foparq.read.gis.layers import GDAL_ERRORS, Taken, first_line, hold, read_layer
 from foparq.read.guard.stage import staged
 
@@ -87,7 +87,7 @@ def _unsupported(table: Table) -> Skipped:
     return Skipped(reason=SkippedReason.UNSUPPORTED_LAYER, kind=table.geometry_type, layer=table.name, count=table.rows)
 
 
-def _layer(path: Path, name: str, table: Table) -> Layer | None:
+def _layer(path: Path, name: str, table: Table) -> LayerRows | None:
     # None if the table is declared of a type that is no simple feature.
     try:
         layer = read_layer(name, table.name, table.rows, undefined=table.undefined_crs)
@@ -102,7 +102,9 @@ def _layer(path: Path, name: str, table: Table) -> Layer | None:
     return layer
 
 
-def _straight(path: Path, table: Table, layer: Layer, limits: LimitsSpec, sagitta: float, unit: str | None) -> Layer:
+def _straight(
+    path: Path, table: Table, layer: LayerRows, limits: LimitsSpec, sagitta: float, unit: str | None
+) -> LayerRows:
     if table.geometry_type in STRAIGHT:
         return layer
     metres = unit_of((layer.system,), _NOWHERE, unit).metres

@@ -30,7 +30,7 @@ _BY_LAYER = 256  #: AutoCAD's colour index of what has no colour of its own
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Layer:
+class LayerRows:
     """One layer as read, n features."""
 
     name: str
@@ -42,12 +42,12 @@ class Layer:
     paper: Flags  #: (n,) true in the paper space of a CAD export
 
 
-def items_of(layer: Layer, *, prefix: str) -> tuple[Items, tuple[Skipped, ...]]:
+def items_of(layer: LayerRows, *, prefix: str) -> tuple[Items, tuple[Skipped, ...]]:
     """Items of one layer, and what could not become one.
 
     Parameters
     ----------
-    layer : Layer
+    layer : LayerRows
     prefix : str
         Written before the feature id to make the item id unique in the file: ``"plots:"``.
 
@@ -92,7 +92,7 @@ def join_items(pieces: list[Items]) -> Items:
     return Items(**{name: np.concatenate([getattr(piece, name) for piece in pieces]) for name in columns})
 
 
-def _without_exotic(layer: Layer, geometry: Geometries) -> tuple[Flags, tuple[Skipped, ...]]:
+def _without_exotic(layer: LayerRows, geometry: Geometries) -> tuple[Flags, tuple[Skipped, ...]]:
     keep = np.ones(len(geometry), dtype=bool)
     found: dict[str, list[str]] = {}
     for row in np.flatnonzero(shapely.is_missing(geometry)).tolist():

@@ -13,7 +13,7 @@ from foparq.columns import Flags
 from foparq.errors import UnsafeError
 from foparq.model.drawing import Skipped
 from foparq.model.items import Items
-from foparq.read.gis.items import LAYER_COLUMNS, Layer
+from foparq.read.gis.items import LAYER_COLUMNS, LayerRows
 
 _PAPER_COLUMNS = ("PaperSpace", "paperspace", "PAPERSPACE")
 
@@ -32,7 +32,7 @@ class Taken:
     layers: tuple[str, ...]  #: every layer of the file
 
 
-def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, called: str = "") -> Layer:
+def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, called: str = "") -> LayerRows:
     """One layer.
 
     Parameters
@@ -50,7 +50,7 @@ def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, calle
 
     Returns
     -------
-    Layer
+    LayerRows
 
     Raises
     ------
@@ -70,7 +70,7 @@ def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, calle
     columns = dict(zip(meta["fields"], values, strict=True))
     own = next((columns[key] for key in LAYER_COLUMNS if key in columns and columns[key].dtype == object), None)
     paper = next((columns[key] for key in _PAPER_COLUMNS if key in columns), None)
-    return Layer(
+    return LayerRows(
         name=called or str(layer), geometry_type=meta["geometry_type"] or "Unknown", fid=fid, wkb=wkb, layer=own,
         system="" if undefined or not meta["crs"] else meta["crs"], paper=_flags(paper, len(fid)),
     )  # fmt: skip

@@ -47,7 +47,7 @@ class SkippedView:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Coverage:
+class LookedAt:
     """All of it."""
 
     ran: tuple[RunView, ...]
@@ -67,8 +67,8 @@ class Coverage:
         return not (self.not_run or self.open_elements or self.files_out or self.skipped or self.hidden)
 
 
-def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -> Coverage:
-    """Coverage of one audit.
+def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -> LookedAt:
+    """What was looked at in one audit.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -
         for drawing in record.delivery.drawings
         for repair in drawing.reading.repairs
     ]
-    return Coverage(
+    return LookedAt(
         ran=tuple(view for run, view in runs if run.status in ended),
         not_run=tuple(view for run, view in runs if run.status not in ended),
         aside=any(run.skipped for run in record.outcomes),

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from foparq.findings.table import Severity
-from foparq.report.page.coverage import Coverage, coverage
+from foparq.report.page.coverage import LookedAt, coverage
 from foparq.report.page.drawing import GROUPS, Picture, picture_of
 from foparq.report.page.findings import GroupView, Listing, group_view, listing_of, shown_rows
 from foparq.report.page.marks import MarkView, mark_views
@@ -45,7 +45,7 @@ class View:
     figures: tuple[FigureView, ...]
     faults: tuple[GroupView, ...]
     notes: tuple[GroupView, ...]
-    coverage: Coverage
+    coverage: LookedAt
     inputs: tuple[InputView, ...]
 
 

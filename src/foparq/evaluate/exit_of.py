@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Exit code of a finished audit."""
 
-from foparq.cli.exits import Exit
 from foparq.evaluate.quality import QualityReport, Verdict
+from foparq.exits import Exit
 
 
 def exit_of(quality: QualityReport) -> Exit:

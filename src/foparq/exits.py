@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Exit codes and what they mean."""
+"""Exit codes and what they mean, for the command and whatever runs it: a batch, a server, a script."""
 
 from enum import IntEnum
+
+from foparq.errors import FoparqError, InputError, UsageError, WriteError
 
 
 class Exit(IntEnum):
@@ -15,3 +17,10 @@ class Exit(IntEnum):
     CRASHED = 70  #: foparq itself failed; nothing is said about the delivery
     STOPPED = 130  #: interrupted by the user
     PIPE = 141  #: nobody reads the output any more
+
+
+def exit_of_error(error: FoparqError) -> Exit:
+    """Exit code of what ended a run before there was a conclusion."""
+    if isinstance(error, InputError):
+        return Exit.REFUSED
+    return Exit.USAGE if isinstance(error, UsageError | WriteError) else Exit.UNDECIDED
