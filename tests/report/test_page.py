@@ -15,10 +15,11 @@ import shapely
 
 from foparq.evaluate.quality import QualityReport, Verdict
 from foparq.findings.because import Because
-from foparq.findings.outcome import Status
+from foparq.findings.outcome import SetAside, Status
 from foparq.findings.table import Findings, join_findings
 from foparq.model.delivery import Delivery
 from foparq.model.drawing import SkippedReason
+from foparq.report.page.coverage import coverage
 from foparq.report.page.findings import group_findings
 from foparq.report.page.page import page, write_page
 from foparq.report.record import AuditRecord
@@ -200,6 +201,26 @@ def test_what_was_not_checked_is_said(rejected: AuditRecord) -> None:
         assert part in text, part
     assert "coincidência (coincide) 0,1 mm; alcance (reach) 10 mm" in text
     assert "coincide 0.1 mm; reach 10 mm" in read(rejected).words("en")
+
+
+def test_items_that_were_not_judged_are_named(rejected: AuditRecord) -> None:
+    aside = (SetAside(item="2C", layer="PISO", rule=""), SetAside(item="3D", layer="PISO", rule="zero-length"))
+    runs = tuple(replace(run, aside=aside) if run.skipped else run for run in rejected.outcomes)
+    reader = read(replace(rejected, outcomes=runs))
+    for language, odd, faulty in (
+        ("pt-BR", "2C (PISO): a regra não consegue trabalhar com ele", "3D (PISO): em falha por zero-length"),
+        ("en", "2C (PISO): the rule cannot work with it", "3D (PISO): at fault by zero-length"),
+    ):
+        assert odd in reader.words(language)
+        assert faulty in reader.words(language)
+
+
+def test_an_item_that_no_rule_could_judge_is_a_gap(accepted: AuditRecord) -> None:
+    odd = (SetAside(item="2C", layer="PISO", rule=""),)
+    first, *others = accepted.outcomes
+    record = replace(accepted, outcomes=(replace(first, unjudged=np.arange(1), aside=odd), *others))
+    assert coverage(Words("en"), accepted, ()).complete
+    assert not coverage(Words("en"), record, ()).complete
 
 
 def test_a_complete_audit_claims_no_gap(accepted: AuditRecord) -> None:

@@ -9,7 +9,13 @@ from foparq.model.delivery import Source
 from foparq.report.page.drawing import Picture
 from foparq.report.page.tables import TAKEN_IN, ElementView, InputView, input_views, open_elements
 from foparq.report.record import AuditRecord
-from foparq.report.sentences import outcome_because, outcome_scope, parameters_sentence, skipped_sentence
+from foparq.report.sentences import (
+    aside_sentence,
+    outcome_because,
+    outcome_scope,
+    parameters_sentence,
+    skipped_sentence,
+)
 from foparq.report.words import Words, printable
 
 _ROWS = 300  #: rows of a list of left-out things
@@ -53,6 +59,9 @@ class LookedAt:
     ran: tuple[RunView, ...]
     not_run: tuple[RunView, ...]
     aside: bool  #: some run set items aside
+    aside_items: tuple[str, ...]  #: the first of them, with their layers and why
+    aside_more: str
+    unfit: bool  #: some of them no rule could judge
     open_elements: tuple[ElementView, ...]
     files_out: tuple[InputView, ...]
     skipped: tuple[SkippedView, ...]
@@ -64,7 +73,8 @@ class LookedAt:
     @property
     def complete(self) -> bool:
         """Nothing was left out."""
-        return not (self.not_run or self.open_elements or self.files_out or self.skipped or self.hidden)
+        left_out = self.open_elements or self.files_out or self.skipped or self.hidden
+        return not (self.not_run or self.unfit or left_out)
 
 
 def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -> LookedAt:
@@ -77,7 +87,9 @@ def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -
     pictures : tuple of Picture
         They know how much of each drawing is hidden.
     """
-    runs = [(run, _run_view(words, run, noted=_only_notes(record, run))) for run in record.outcomes]
+    told = [run for run in record.outcomes if not run.helper]
+    runs = [(run, _run_view(words, run, noted=_only_notes(record, run))) for run in told]
+    aside = dict.fromkeys(aside_sentence(words, one) for run in told for one in run.aside)
     ended = {Status.CLEAN, Status.FAULTY}
     skipped = [(source, part) for source in record.delivery.sources for part in source.skipped]
     repairs = [
@@ -88,7 +100,10 @@ def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -
     return LookedAt(
         ran=tuple(view for run, view in runs if run.status in ended),
         not_run=tuple(view for run, view in runs if run.status not in ended),
-        aside=any(run.skipped for run in record.outcomes),
+        aside=any(run.skipped for run in told),
+        aside_items=tuple(aside)[:_ROWS],
+        aside_more=_more(words, len(aside)),
+        unfit=any(not one.rule for run in told for one in run.aside),
         open_elements=open_elements(words, record),
         files_out=input_views(words, _left_out(record)),
         skipped=tuple(
