@@ -146,6 +146,17 @@ def test_a_stretch_is_shared_within_the_tolerance_and_longer_than_it(common: int
         assert ends == pytest.approx([(900 - common) * TENTH, 900 * TENTH], abs=1e-7)
 
 
+@pytest.mark.parametrize(("rise", "along"), [(3.8, True), (4.2, False), (-3.8, True), (-4.2, False)])
+def test_a_piece_turned_by_more_than_one_in_four_does_not_run_along(rise: float, along: bool) -> None:  # noqa: FBT001
+    # Sixteen tenths long, of which it rises so many.
+    run = np.sqrt(16.0**2 - rise**2)
+    lines = table(tenths((0, 0), (900, 0)), tenths((400, 0), (400 + run, rise)))
+    found = line_overlaps(lines, np.zeros(2, dtype=bool), coincide=COINCIDE)
+    assert len(found.length) == along
+    if along:
+        assert found.length == pytest.approx([run * TENTH], abs=1e-8)
+
+
 @pytest.mark.parametrize("depth", [5, 6])
 def test_a_stretch_is_shared_in_depth_too(depth: int) -> None:
     lines = table(tenths((0, 0, 0), (900, 0, 0)), tenths((300, 0, depth), (600, 0, depth)))
@@ -177,6 +188,14 @@ def test_a_line_retraces_itself_within_the_tolerance(aside: int) -> None:
     assert len(found.line) == (aside <= 5)
     if len(found.line):
         assert np.ptp(np.stack([found.start[0], found.end[0]])[:, 0]) == pytest.approx(400 * TENTH, abs=1e-7)
+
+
+@pytest.mark.parametrize("back", [*TENTHS, 14, 40])
+def test_a_line_that_turns_back_at_its_end(back: int) -> None:
+    found = self_meetings(table(tenths((0, 0), (500, 0), (500 - back, 0))), coincide=COINCIDE)
+    assert len(found.line) == (back > 5)
+    if len(found.line):
+        assert np.hypot(*(found.end - found.start).T) == pytest.approx([back * TENTH], abs=1e-8)
 
 
 @pytest.mark.parametrize("gap", TENTHS)

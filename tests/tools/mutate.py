@@ -10,6 +10,7 @@ told, which ``mutants.toml`` then says under ``[[equivalent]]``.
 import argparse
 import hashlib
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -35,6 +36,7 @@ _HOUSE = ("tests/test_house.py", "tests/test_contributing.py")
 _LEFT = shutil.ignore_patterns(
     ".git", ".venv", "__pycache__", "audit", ".hypothesis", "data", "*.log", ".*_cache", "dist", "node_modules"
 )
+_PATIENCE, _SLOWER = 20.0, 10.0  #: seconds that every test may take, and how much slower than without a mutant
 _FIRST = 60  #: tests of the first step
 _CONFIGURE = ""  #: the test that functions belong to which run before any test
 
@@ -65,12 +67,12 @@ class Reach:
             if file in files:
                 groups[(test not in tests, file)].append((spent, test))
         for _, group in sorted(groups.items(), key=lambda pair: (pair[0][0], sorted(pair[1])[len(pair[1]) // 2])):
-            order |= {test: 20.0 + 10 * spent for spent, test in sorted(group)}
+            order |= {test: _PATIENCE + _SLOWER * spent for spent, test in sorted(group)}
         return order
 
     def everything(self) -> dict[str, float]:
         """All tests."""
-        return {test: 20.0 + 10 * spent for test, spent in self.seconds.items()}
+        return {test: _PATIENCE + _SLOWER * spent for test, spent in self.seconds.items()}
 
 
 @dataclass(slots=True)
@@ -245,16 +247,21 @@ def table(
     return "\n".join(lines) + "\n\n" + "\n\n".join(survivors)
 
 
-def _in_steps(order: dict[str, float]) -> Iterator[dict[str, float]]:
-    """A few quick tests, which tell most mutants, and all others: fewer files of tests are imported for nothing."""
+def _in_steps(order: dict[str, float], budget: float) -> Iterator[dict[str, float]]:
+    """A few quick tests, which tell most mutants, and the others: fewer files of tests are imported for nothing."""
     tests = list(order)
-    for part in (tests[:_FIRST], tests[_FIRST:]):
+    spent, rest = 0.0, []
+    for test in tests[_FIRST:]:
+        spent += (order[test] - _PATIENCE) / _SLOWER
+        if spent <= budget:
+            rest.append(test)
+    for part in (tests[:_FIRST], rest):
         if part:
             yield {test: order[test] for test in part}
 
 
 def work(
-    mutants: Iterable[Mutant], workers: list[Worker], reach: Reach, *, whole: bool
+    mutants: Iterable[Mutant], workers: list[Worker], reach: Reach, *, whole: bool, budget: float
 ) -> Iterator[tuple[Mutant, dict[str, Any]]]:
     """Results as they come."""
     free: Queue[Worker] = Queue()
@@ -266,7 +273,7 @@ def work(
         try:
             order = reach.of(mutant)
             found = {"code": 5, "failed": [], "passed": {}, "seconds": 0.0}
-            for some in _in_steps(order):
+            for some in _in_steps(order, budget):
                 spent = found["seconds"]
                 found = worker.try_out(mutant, some)
                 found["seconds"] += spent
@@ -297,6 +304,7 @@ def main() -> None:
     ask.add_argument(
         "--whole", action="store_true", help="run the whole suite over what survives the tests that reach it"
     )
+    ask.add_argument("--budget", type=float, default=math.inf, help="seconds of tests beyond the first few, a mutant")
     ask.add_argument("--fresh", action="store_true", help="learn anew what the tests reach")
     ask.add_argument("--workers", type=int, default=2)
     ask.add_argument("--folder", type=Path, default=Path(tempfile.gettempdir()) / "foparq-mutation")
@@ -320,7 +328,7 @@ def main() -> None:
         if mutant.key not in done and not (given.resume and mutant.key in told and mutant.key in results)
     ]
     with kept.open("a" if given.resume else "w", encoding="utf-8") as stream:
-        for number, (mutant, row) in enumerate(work(todo, workers, reach, whole=given.whole), 1):
+        for number, (mutant, row) in enumerate(work(todo, workers, reach, whole=given.whole, budget=given.budget), 1):
             results[mutant.key] = row
             stream.write(json.dumps(row) + "\n")
             stream.flush()
