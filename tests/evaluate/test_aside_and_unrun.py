@@ -16,6 +16,16 @@ BAD = outcome("gap", range(90), checked=100)
 EVERY = ("faulty-rate", "found-rate")
 
 
+def test_features_of_drawings_on_which_no_rule_ran_are_counted_apart() -> None:
+    several = drawn(drawing(n=40), drawing("b.dxf", n=30), drawing("c.dxf", n=20))
+    outcomes = [
+        outcome("gap", range(4), checked=40), not_run("gap", Because.UNIT_UNKNOWN, "b.dxf"),
+        not_run("gap", Because.NOTHING, "c.dxf"),
+    ]  # fmt: skip
+    element = one(RATE, delivery=several, outcomes=outcomes)
+    assert (parameter(element, "not-run-on"), element.n, element.value) == (30.0, 40, 0.1)
+
+
 @pytest.mark.parametrize(("faulty", "status"), [(16, UNDECIDED), (17, FAIL)])
 def test_unchecked_drawings_are_given_the_benefit_up_to_the_limit(faulty: int, status: ElementStatus) -> None:
     both = drawn(drawing(n=32), drawing("b.dxf", n=32))
