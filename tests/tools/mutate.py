@@ -8,6 +8,7 @@ told, which ``mutants.toml`` then says under ``[[equivalent]]``.
 """
 
 import argparse
+import ast
 import hashlib
 import json
 import math
@@ -47,6 +48,7 @@ class Reach:
 
     called: dict[str, dict[str, list[str]]]  #: file, function, tests
     seconds: dict[str, float]  #: of every test that passes
+    users: dict[str, set[str]] = field(default_factory=dict)  #: file, files that import it
 
     def of(self, mutant: Mutant) -> dict[str, float]:
         """Tests that may tell a mutant, in the order to run them, with the seconds each may take.
@@ -58,7 +60,8 @@ class Reach:
         tests = set(functions.get(mutant.function, []))
         if not tests - {_CONFIGURE}:
             # Code outside of functions, and what runs when tests are collected: whoever uses the file.
-            tests = {test for group in functions.values() for test in group}
+            used = (mutant.file, *self.users.get(mutant.file, ()))
+            tests = {test for file in used for group in self.called.get(file, {}).values() for test in group}
         files = {test.split("::")[0] for test in tests}
         order: dict[str, float] = {}
         groups = defaultdict(list)
@@ -150,6 +153,17 @@ def reach_of(tree: Path, folder: Path, *, fresh: bool) -> Reach:
         said = {"called": reach.called, "seconds": reach.seconds, "files": now}
         kept.write_text(json.dumps(said), encoding="utf-8")
     return reach
+
+
+def users_of(source: Path) -> dict[str, set[str]]:
+    """Files that import each file, directly."""
+    users: dict[str, set[str]] = defaultdict(set)
+    for path in source.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("foparq."):
+                named = "/".join((node.module or "").split(".")[1:])
+                users[f"{named}.py"].add(path.relative_to(source).as_posix())
+    return users
 
 
 def _learn(tree: Path, folder: Path, files: list[str]) -> tuple[dict[str, float], dict[str, dict[str, set[str]]]]:
@@ -314,6 +328,7 @@ def main() -> None:
     reach = reach_of(workers[0].tree, given.folder, fresh=given.fresh)
     # The checkout may change meanwhile; the copies do not.
     source = workers[0].tree / "src" / "foparq"
+    reach.users = users_of(source)
     made, stale = by_hand(DATA, source)
     made = ([] if given.no_hand else made) + by_chance(source, given.count, given.seed)
     made = [mutant for mutant in made if given.only in mutant.file]
