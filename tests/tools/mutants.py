@@ -115,6 +115,7 @@ class _Walker(ast.NodeVisitor):
     def __init__(self, file: str, text: str) -> None:
         self.file, self.text, self.made = file, text, list[Mutant]()
         self._names: list[str] = []
+        self._inside = 0  # functions around
         lines = text.splitlines(keepends=True)
         self._lines = [line.encode() for line in lines]
         self._starts = np.concatenate([[0], np.cumsum([len(line) for line in lines])])
@@ -126,7 +127,8 @@ class _Walker(ast.NodeVisitor):
         return self._offset(node.lineno, node.col_offset), self._offset(node.end_lineno or 0, node.end_col_offset or 0)
 
     def _add(self, kind: str, start: int, old: str, new: str) -> None:
-        found = Mutant(file=self.file, start=start, old=old, new=new, function=".".join(self._names), kind=kind)
+        function = ".".join(self._names) if self._inside else ""
+        found = Mutant(file=self.file, start=start, old=old, new=new, function=function, kind=kind)
         try:
             ast.parse(found.applied(self.text))
         except SyntaxError:
@@ -145,9 +147,10 @@ class _Walker(ast.NodeVisitor):
         self._names.append(node.name)
         for default in (*node.args.defaults, *filter(None, node.args.kw_defaults)):
             self.visit(default)
-        body = node.body[1:] if ast.get_docstring(node) else node.body
-        for statement in body:
+        self._inside += 1
+        for statement in node.body[1:] if ast.get_docstring(node) else node.body:
             self.visit(statement)
+        self._inside -= 1
         self._names.pop()
 
     visit_FunctionDef = visit_AsyncFunctionDef = _function  # noqa: N815
