@@ -71,4 +71,5 @@ def test_a_plain_outcome_is_no_trial_no_helper_and_set_nothing_aside() -> None:
 
 
 def test_no_findings_join_to_none() -> None:
+    assert no_findings().place.shape == join_findings([no_findings()] * 2).place.shape == (0, 3)
     assert len(no_findings()) == len(join_findings([])) == len(join_findings([no_findings()] * 2)) == 0

@@ -86,7 +86,10 @@ def test_letterings_without_a_unit(text: str, number: float) -> None:
     assert lettered_length(text) == (None, number)
 
 
-@pytest.mark.parametrize("text", ["", "x", '3/2"', '2/2"', "1.2.3 m", "1.23.456", "12,34,567", "2 m 3", "-", "5 stone"])
+@pytest.mark.parametrize(
+    "text",
+    ["", "x", '3/2"', '2/2"', "1.2.3 m", "1.23.456", "12,34,567", "1.234,5,6", "1,234.5.6", "2 m 3", "-", "5 stone"],
+)
 def test_letterings_that_state_nothing(text: str) -> None:
     assert lettered_length(text) == (None, None)
 
