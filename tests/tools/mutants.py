@@ -8,6 +8,7 @@ import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from difflib import unified_diff
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -70,10 +71,6 @@ class Mutant:
         return "\n".join([self.file, *list(lines)[2:]])
 
 
-class StaleError(Exception):
-    """A mutant of the data file no longer fits the source."""
-
-
 def by_hand(data: Path, source: Path) -> tuple[list[Mutant], list[str]]:
     """Mutants of the data file, and complaints about those whose old text is not exactly once in its file."""
     made, stale = [], []
@@ -91,17 +88,28 @@ def by_hand(data: Path, source: Path) -> tuple[list[Mutant], list[str]]:
 def by_chance(source: Path, count: int, seed: int) -> list[Mutant]:
     """``count`` random mutants; every room gets a share by the square root of what can be changed in it."""
     sites: dict[str, list[Mutant]] = {room: [] for room in ROOMS}
+    texts: dict[str, str] = {}
     for path in sorted(source.rglob("*.py")):
         name = path.relative_to(source).as_posix()
         if name.split("/")[0] in sites:
-            sites[name.split("/")[0]].extend(changes(name, path.read_text(encoding="utf-8")))
+            texts[name] = path.read_text(encoding="utf-8")
+            sites[name.split("/")[0]].extend(changes(name, texts[name]))
     weight = np.sqrt([len(found) for found in sites.values()])
     share = np.floor(count * np.cumsum(weight) / weight.sum() + 0.5).astype(int)
     rng = np.random.default_rng(seed)
     chosen: list[Mutant] = []
     for number, found in zip(np.diff(share, prepend=0), sites.values(), strict=True):
-        chosen += [found[row] for row in sorted(rng.permutation(len(found))[:number].tolist())]
+        order = (found[row] for row in rng.permutation(len(found)).tolist())
+        chosen += islice((one for one in order if _parses(one.applied(texts[one.file]))), int(number))
     return chosen
+
+
+def _parses(text: str) -> bool:
+    try:
+        ast.parse(text)
+    except SyntaxError:
+        return False
+    return True
 
 
 def changes(file: str, text: str) -> list[Mutant]:
@@ -129,10 +137,6 @@ class _Walker(ast.NodeVisitor):
     def _add(self, kind: str, start: int, old: str, new: str) -> None:
         function = ".".join(self._names) if self._inside else ""
         found = Mutant(file=self.file, start=start, old=old, new=new, function=function, kind=kind)
-        try:
-            ast.parse(found.applied(self.text))
-        except SyntaxError:
-            return
         self.made.append(found)
 
     def _between(self, kind: str, left: ast.expr, right: ast.expr, old: str, new: str) -> None:
