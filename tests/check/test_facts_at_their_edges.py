@@ -14,6 +14,7 @@ from foparq.check import run as engine
 from foparq.check.validate import validate_checks
 from foparq.errors import ProfileError
 from foparq.findings.outcome import Status
+from foparq.model.drawing import DrawingUnit, UnitOrigin
 from foparq.profile.load import load_profile
 
 
@@ -77,3 +78,17 @@ def test_calls_that_cannot_be_made_end_no_audit(monkeypatch: pytest.MonkeyPatch)
     assert {spec.rule for spec in PROFILE.checks} == {found.name for found in checked.outcomes}
     assert "undershoot" in checked.findings.name
     assert all(found.status in Status for found in checked.outcomes)
+
+
+def test_a_rule_that_did_not_run_checked_and_found_nothing() -> None:
+    unknown = DrawingUnit(metres=None, name="", origin=UnitOrigin.UNKNOWN)
+    outcomes = check(drawing(["LINESTRING (0 0, 1 0)", "LINESTRING (0.5 -0.004, 0.5 -1)"], unit=unknown)).outcomes
+    idle = [found for found in outcomes if found.status is Status.NOT_RUN]
+    assert len(idle) > 5
+    assert {(found.checked, found.found, len(found.faulty)) for found in idle} == {(0, 0, 0)}
+
+
+def test_a_triangle_drawn_as_a_closed_line_bounds_an_area() -> None:
+    triangles = ["LINESTRING (0 0, 2 0, 0 2, 0 0)", "LINESTRING (0.5 0, 2.5 0, 0.5 2, 0.5 0)"]
+    found = check(drawing(triangles, areas=("0",)), "area-overlap").findings
+    assert found.size.tolist() == pytest.approx([1.5**2 / 2])

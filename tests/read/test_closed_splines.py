@@ -10,7 +10,7 @@ from tests.read.drawn import new, read_back
 LOOP = [(100.0, 100.0, 0.0), (140.0, 100.0, 0.0), (140.0, 130.0, 0.0), (100.0, 130.0, 0.0)]
 
 
-@pytest.mark.parametrize(("off", "extra"), [(0.0, 0), (1e-9, 0), (1e-3, 1), (5.0, 1)])
+@pytest.mark.parametrize(("off", "extra"), [(0.0, 0), (1e-9, 0), (1e-7, 1), (1e-3, 1), (5.0, 1)])
 def test_a_closed_spline_returns_to_its_start(tmp_path: Path, off: float, extra: int) -> None:
     """An end that misses the start by rounding becomes it; one that lies elsewhere is joined to it."""
     document = new()
