@@ -30,6 +30,10 @@ def greedy() -> Iterator[object]:
     yield len(bytearray(4_000_000_000))
 
 
+def taking(count: int) -> Iterator[object]:
+    yield len(b"x" * count)
+
+
 def failing() -> Iterator[object]:
     yield "before"
     raise ValueError("planted")

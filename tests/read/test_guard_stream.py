@@ -52,6 +52,14 @@ def test_memory_is_bounded(run: Callable[..., list]) -> None:
     assert run(streams.greedy) == ["before", Stopped(spent=True)]
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is bounded on Linux only")
+def test_what_the_child_starts_with_counts_as_memory() -> None:
+    assert list(streamed(streams.taking, (200_000_000,), **{**PLENTY, "memory": 900_000_000})) == [200_000_000]
+    held = b"x" * 800_000_000
+    assert list(streamed(streams.taking, (200_000_000,), **{**PLENTY, "memory": 900_000_000})) == [Stopped(spent=True)]
+    del held
+
+
 @pytest.mark.parametrize("function", [streams.failing, streams.crashing, streams.unpicklable])
 def test_a_failure_is_no_exhaustion(run: Callable[..., list], function: Callable[..., Iterator[object]]) -> None:
     end = run(function)[-1]

@@ -21,7 +21,7 @@ class Budget:
 
     seconds: float  #: processor time in all
     at_once: float  #: processor time between two things that the run tells
-    memory: int  #: bytes beyond what there is at the start
+    memory: int  #: bytes in all, the drawing included
 
 
 @dataclass(frozen=True, slots=True)

@@ -107,9 +107,9 @@ def plane_of(stated: str | tuple[tuple[float, float, float], ...] | None, geomet
 
 def _vertices(geometry: Geometries) -> Coordinates:
     points = shapely.get_coordinates(geometry, include_z=True)
-    points = np.nan_to_num(points, nan=np.nan, posinf=np.nan, neginf=np.nan)
-    points[:, 2] = np.nan_to_num(points[:, 2])
-    kept: Coordinates = points[np.isfinite(points).all(axis=1)]
+    points[~np.isfinite(points[:, 2]), 2] = 0.0
+    finite = np.isfinite(points[:, 0]) & np.isfinite(points[:, 1])
+    kept: Coordinates = points if finite.all() else points[finite]
     return kept
 
 

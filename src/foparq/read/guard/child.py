@@ -97,7 +97,7 @@ def serve_stream(
     at_once : float
         Processor time between two things. The process ends by ``SIGPROF`` where it is exceeded, also within C.
     memory : int
-        Bytes beyond what this process has now.
+        Bytes in all: what this process holds now counts.
     answer, words : int
         File descriptors: the frames; whatever is printed.
     parent : int
@@ -110,7 +110,7 @@ def serve_stream(
     status = 1
     try:
         _hush(words)
-        lift = _bound(seconds, memory, parent, grace=0)
+        lift = _bound(seconds, max(0, memory - _held()), parent, grace=0)
         with os.fdopen(answer, "wb") as pipe:
             try:
                 _timed(at_once)
@@ -177,6 +177,15 @@ def _hush(words: int) -> None:
     faulthandler.enable(2)
     logging.disable(logging.CRITICAL)
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def _held() -> int:
+    # Bytes of memory in use now; pages shared with the parent count.
+    if sys.platform != "linux":
+        return 0
+    import resource  # noqa: PLC0415 - exists on Unix only
+
+    return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1]) * resource.getpagesize()
 
 
 def _bound(seconds: float, memory: int, parent: int, grace: int = _GRACE) -> Callable[[], None]:

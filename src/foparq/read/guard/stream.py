@@ -48,7 +48,7 @@ def streamed(
     seconds, at_once : float
         Processor time in all, and between two things.
     memory : int
-        Bytes that the child may use beyond what it starts with.
+        Bytes that the child may hold in all, those it starts with included.
 
     Yields
     ------
