@@ -16,7 +16,7 @@ from foparq.check.registry import all_rules, required_by
 from foparq.check.run import Begun, Checked, check_part
 from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, Status
-from foparq.findings.table import join_findings
+from foparq.findings.table import Severity, join_findings
 from foparq.model.drawing import Drawing, DrawingUnit, Reading, UnitOrigin
 from foparq.model.items import Items, Role
 from foparq.model.part import Part
@@ -321,6 +321,49 @@ def test_items_set_aside_stay_as_linework_that_others_meet() -> None:
     assert {one.rule for one in outcome(checked, "undershoot").aside} == {"zero-length"}
     for name in ("undershoot", "overshoot", "free-end"):
         assert outcome(checked, name).found == 0
+
+
+def severity_of(name: str, severity: Severity) -> Profile:
+    """The shipped profile with another severity of one rule."""
+    checks = tuple(
+        spec.model_copy(update={"severity": severity}) if spec.rule == name else spec for spec in PROFILE.checks
+    )
+    return PROFILE.model_copy(update={"checks": checks})
+
+
+NOT_FINITE = ["LINESTRING (0 0, 1 0)", "LINESTRING (0 1, nan 1)"]
+
+
+def test_an_item_that_only_a_silent_rule_accuses_leaves_the_question_open() -> None:
+    told = check(drawing(NOT_FINITE))
+    assert not outcome(told, "duplicate").opens
+    silent = check(drawing(NOT_FINITE), "duplicate")
+    (aside,) = outcome(silent, "duplicate").aside
+    assert (aside.item, aside.rule, aside.told) == ("11", "invalid-geometry", False)
+    assert outcome(silent, "duplicate").opens
+
+
+def test_an_item_that_a_note_accuses_leaves_the_question_open() -> None:
+    noted = check_part(drawing(NOT_FINITE), severity_of("invalid-geometry", Severity.NOTE), 50)
+    assert outcome(noted, "duplicate").opens
+
+
+def test_a_copy_that_a_silent_rule_leaves_out_leaves_nothing_open() -> None:
+    checked = check(drawing(POST_TWICE), "undershoot")
+    assert outcome(checked, "undershoot").skipped == 1
+    assert not outcome(checked, "undershoot").opens
+
+
+def test_pieces_of_a_plan_at_several_heights_need_no_plane() -> None:
+    level = ["LINESTRING Z (0 0 0, 3 0 0)", "LINESTRING Z (0 2 1, 3 2 1)", "LINESTRING Z (0 1 0.5, 3 1 0.5)"]
+    for shapes, because in (
+        (level, Because.RAN),
+        ([*level, "LINESTRING Z (0 0 0, 0 0 3)"], Because.PLANE_DOUBTFUL),
+        (["LINESTRING Z (0 0 0, 9 0 0)", "LINESTRING Z (0 0 3, 9 0 3)"], Because.PLANE_DOUBTFUL),
+    ):
+        thing = drawing(shapes)
+        assumed = replace(thing, plane=plane_of(None, thing.items.geometry))
+        assert outcome(check(assumed), "duplicate").because is because
 
 
 def test_hits_on_items_set_aside_are_not_told() -> None:

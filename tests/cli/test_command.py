@@ -449,3 +449,13 @@ def test_streams_that_are_closed_or_full(tmp_path: Path, redirect: str, code: in
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
     assert done.returncode == code
     assert "Traceback" not in done.stderr
+
+
+def test_what_a_silent_rule_sets_aside_is_not_no_fault(foparq: Command, tmp_path: Path) -> None:
+    path = tmp_path / "a.dxf"
+    write_dxf(path, *CLEAN)
+    text = path.read_text(encoding="utf-8")
+    line = "LINE\n  8\n0\n 10\nnan\n 20\n0.0\n 11\n1.0\n 21\n1.0\n"
+    path.write_text(text.replace("ENTITIES\n", f"ENTITIES\n  0\n{line}", 1), encoding="utf-8")
+    assert foparq("check", path, "--scale", "1:50")[0] == 1
+    assert foparq("check", path, "--scale", "1:50", "--ignore", "invalid-geometry")[0] == 3

@@ -133,7 +133,8 @@ def judged(call: Call, rules: Mapping[str, Rule], outcomes: Sequence[Outcome], s
     unfit = first.unfit
     blamed_here = np.intersect1d(_union(blamed.values()), first.rows.row)
     unjudged = np.union1d(unfit, blamed_here)
-    return Judged(tuple(inputs), tuple(aside), unjudged, _named(subject, unfit, blamed, blamed_here, rules))
+    named = _named(subject, unfit, blamed, blamed_here, _telling(call, rules, outcomes))
+    return Judged(tuple(inputs), tuple(aside), unjudged, named)
 
 
 def _faulty(outcomes: Sequence[Outcome], code: str) -> Index:
@@ -145,19 +146,26 @@ def _union(columns: Iterable[Index]) -> Index:
     return rows
 
 
+def _telling(call: Call, rules: Mapping[str, Rule], outcomes: Sequence[Outcome]) -> dict[str, tuple[str, bool]]:
+    """Name of every required rule, and whether it tells what it finds at fault, or what that repeats is judged."""
+    silent = {outcome.rule for outcome in outcomes if not outcome.counts}
+    return {code: (rules[code].name, rules[code].repeats or code not in silent) for code in call.rule.requires}
+
+
 def _named(
-    subject: Subject, unfit: Index, blamed: Mapping[str, Index], here: Index, rules: Mapping[str, Rule]
+    subject: Subject, unfit: Index, blamed: Mapping[str, Index], here: Index, rules: Mapping[str, tuple[str, bool]]
 ) -> tuple[SetAside, ...]:
-    """The first items that are not judged; those that the rule cannot work with come first: nothing else tells them."""
-    told: dict[int, str] = {}
-    why = {code: set(rows.tolist()) for code, rows in blamed.items()}
-    for row in (*unfit.tolist(), *np.setdiff1d(here, unfit).tolist()):
-        if len(told) == _NAMED:
-            break
-        told[row] = next((rules[code].name for code in why if row in why[code]), "")
-    rows = np.fromiter(told, np.intp, len(told))
-    items, layers = subject.named(rows)
+    """The first items that are not judged; those of which nothing else tells come first."""
+    why: dict[int, tuple[str, bool]] = {}
+    # The first rule that tells of an item names it, else the first that does not.
+    for code in sorted(blamed, key=lambda code: not rules[code][1]):
+        for row in blamed[code].tolist():
+            why.setdefault(row, rules[code])
+    rows = [*unfit.tolist(), *np.setdiff1d(here, unfit).tolist()]
+    nobody = ("", False)
+    rows = sorted(rows, key=lambda row: why.get(row, nobody)[1])[:_NAMED]
+    items, layers = subject.named(np.array(rows, dtype=np.intp))
     return tuple(
-        SetAside(item=str(item), layer=str(layer), rule=rule)
-        for item, layer, rule in zip(items, layers, told.values(), strict=True)
+        SetAside(item=str(item), layer=str(layer), rule=why.get(row, nobody)[0], told=why.get(row, nobody)[1])
+        for row, item, layer in zip(rows, items, layers, strict=True)
     )

@@ -20,7 +20,7 @@ from foparq.check.told import findings_of
 from foparq.findings.because import Because
 from foparq.findings.hits import NOBODY, Deviations, Hits
 from foparq.findings.outcome import Outcome, Status
-from foparq.findings.table import Findings, join_findings
+from foparq.findings.table import Findings, Severity, join_findings
 from foparq.model.part import Part
 from foparq.profile.schema import CheckSpec, Profile
 
@@ -150,6 +150,7 @@ def _before(rule: Rule, spec: CheckSpec, part: Part, scope: str) -> Outcome:
     return Outcome(
         rule=rule.code, name=rule.name, scope=scope, source=part.path, status=Status.NOT_RUN, checked=0, found=0,
         faulty=np.empty(0, dtype=np.intp), preview=rule.preview, helper=spec.helper,
+        counts=not (rule.preview or spec.helper or spec.severity is Severity.NOTE),
         layers=tuple(sorted({*spec.layers, *(pattern for layers in spec.on.values() for pattern in layers)})),
     )  # fmt: skip
 

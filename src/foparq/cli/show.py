@@ -84,7 +84,8 @@ def _headline(record: AuditRecord, say: Words) -> str:
     faults = int(np.count_nonzero(record.findings.severity != Severity.NOTE))
     notes = len(record.findings) - faults
     if record.loose:
-        message = _LOOSE[record.quality.verdict]
+        ran = any(outcome.checked for outcome in record.outcomes)
+        message = _LOOSE[record.quality.verdict] if ran or faults else "nothing"
         return say(f"cli.headline.{message}", faults=faults, notes=notes)
     return say(
         f"cli.headline.{record.quality.verdict.value}",
@@ -158,7 +159,7 @@ def _not_checked(record: AuditRecord, say: Words) -> None:
             f"{printable(outcome.source)}: {aside_sentence(say, one)}"
             for outcome in record.outcomes
             for one in outcome.aside
-            if not one.rule
+            if one.open
         }
     )
     if lines:

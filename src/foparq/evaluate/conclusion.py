@@ -49,7 +49,7 @@ def _not_run(evidence: Evidence) -> list[Reason]:
     for outcome in evidence.outcomes:
         if outcome.because.opens and outcome.because is not Because.CRASHED:
             places[outcome.because].add(where_broken(outcome))
-        items |= dict.fromkeys(f"{one.item} ({one.layer})" for one in outcome.aside if not one.rule)
+        items |= dict.fromkeys(f"{one.item} ({one.layer})" for one in outcome.aside if one.open)
     why = [because(f"files.{reason}", files=sorted(places[reason])) for reason in sorted(places)]
     if items:
         why.append(because("files.unfit", items=list(items)[:_SHOWN], n=len(items)))

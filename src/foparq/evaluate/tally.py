@@ -89,7 +89,7 @@ def _items(outcomes: Sequence[Outcome], *, unfit: bool) -> tuple[str, ...]:
     """Items that were set aside, with their layers; of those that rules name."""
     return tuple(
         dict.fromkeys(
-            f"{one.item} ({one.layer})" for outcome in outcomes for one in outcome.aside if not (unfit and one.rule)
+            f"{one.item} ({one.layer})" for outcome in outcomes for one in outcome.aside if not unfit or one.open
         )
     )
 

@@ -27,6 +27,12 @@ class SetAside:
     item: str
     layer: str
     rule: str  #: name of the required rule that found it at fault; ``""``: the rule cannot work with it
+    told: bool = True  #: that rule tells it as a fault, or what it repeats is judged: nothing hides behind it
+
+    @property
+    def open(self) -> bool:
+        """Whether a fault of it may hide that no rule told."""
+        return not (self.rule and self.told)
 
 
 def _nothing() -> Index:
@@ -54,6 +60,7 @@ class Outcome:
     seconds: float = 0.0
     about_file: bool = False  #: the rule looks at statements of the file, not at items
     preview: bool = False  #: reported, cannot reject
+    counts: bool = True  #: what it finds is told as a fault: it is no helper, no note, and not in preview
     helper: bool = False  #: runs only because chosen rules require it: nothing of it is told
     deviations: Deviations | None = None  #: of a rule that measures
 
@@ -65,4 +72,4 @@ class Outcome:
     @property
     def opens(self) -> bool:
         """Whether faults may hide here that no rule told."""
-        return self.status is Status.CRASHED or self.because.opens or any(not one.rule for one in self.aside)
+        return self.status is Status.CRASHED or self.because.opens or any(one.open for one in self.aside)

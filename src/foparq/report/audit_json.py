@@ -131,7 +131,9 @@ def _outcome(outcome: Outcome) -> dict[str, Any]:
         "checked": outcome.checked,
         "found": outcome.found,
         "skipped": outcome.skipped,
-        "set_aside": [{"item": one.item, "layer": one.layer, "rule": one.rule} for one in outcome.aside],
+        "set_aside": [
+            {"item": one.item, "layer": one.layer, "rule": one.rule, "told": one.told} for one in outcome.aside
+        ],
         "because": outcome.because.value,
         "requires": list(outcome.names),
         "helper": outcome.helper,

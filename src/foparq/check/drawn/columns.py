@@ -67,18 +67,29 @@ class Columns:
         """Whether the plane shows the drawing from its edge: its width or height is a small part of its depth.
 
         A facade in space that is taken for a plan collapses onto a line: nothing that is found there means anything.
-        Where xy was only assumed, a drawing that is not flat is doubtful. A plane that was fitted, or given by its
-        axes, was chosen on purpose.
+        Where xy was only assumed, a drawing that is not flat is doubtful, unless each of its items is level: a plan
+        with pieces at several heights. A plane that was fitted, or given by its axes, was chosen on purpose.
         """
         share = _EDGE.get(self.drawing.plane.name)
         if share is None:
             return False
+        if share > 1 and self._level():
+            share = _EDGE["xy"]
         sheet: Coordinates = shapely.get_coordinates(self.geometry[self.role != Role.POINT], include_z=True)
         sheet = np.nan_to_num(sheet[np.isfinite(sheet[:, :2]).all(axis=1)], posinf=0.0, neginf=0.0)
         if not len(sheet):
             return False
         width, height, depth = np.ptp(sheet, axis=0)
         return bool(depth * share > min(width, height))
+
+    def _level(self) -> bool:
+        """Whether no item rises."""
+        sheet, item = shapely.get_coordinates(self.geometry, include_z=True, return_index=True)
+        depth = np.nan_to_num(sheet[:, 2], posinf=0.0, neginf=0.0)
+        low, high = np.full(len(self.geometry), np.inf), np.full(len(self.geometry), -np.inf)
+        np.minimum.at(low, item, depth)
+        np.maximum.at(high, item, depth)
+        return not np.any(high > low)
 
     def build(self, kind: type, on: Index) -> Named:
         """Input of one kind from the rows ``on`` of these columns."""

@@ -103,7 +103,7 @@ def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -
         aside=any(run.skipped for run in told),
         aside_items=tuple(aside)[:_ROWS],
         aside_more=_more(words, len(aside)),
-        unfit=any(not one.rule for run in told for one in run.aside),
+        unfit=any(one.open for run in told for one in run.aside),
         open_elements=open_elements(words, record),
         files_out=input_views(words, _left_out(record)),
         skipped=tuple(
