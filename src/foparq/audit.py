@@ -84,10 +84,6 @@ def audit(
     progress : callable, optional
         Told what is being done.
 
-    Returns
-    -------
-    Audit
-
     Raises
     ------
     UsageError
@@ -151,8 +147,6 @@ def check_files(
 
     Parameters
     ----------
-    paths : sequence of Path
-    profile : Profile
     scale : float or None
         Denominator k of the drawing scale 1:k.
     unit : str or None
@@ -161,12 +155,6 @@ def check_files(
         ``"xy"``, ``"xz"``, ``"yz"`` or ``"fit"``.
     areas : tuple of str
         Patterns of the layers whose closed lines bound areas of a coverage.
-    language : str
-    progress : callable, optional
-
-    Returns
-    -------
-    Audit
     """
     validate_checks(profile)
     delivery, log = read_loose(

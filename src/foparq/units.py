@@ -128,10 +128,6 @@ def parse_quantity(text: object, symbol: str) -> Quantity:
     symbol : str
         What must be measured: ``"m"``, ``"m2"``, ``"1"`` or ``"items"``.
 
-    Returns
-    -------
-    Quantity
-
     Raises
     ------
     QuantityError

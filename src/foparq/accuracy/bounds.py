@@ -40,15 +40,10 @@ def rmse_upper(rmse: float, n: int, *, confidence: float) -> float:
 
     Parameters
     ----------
-    rmse : float
     n : int
         At least 1.
     confidence : float
         0.95 for a bound at 95 %.
-
-    Returns
-    -------
-    float
 
     Notes
     -----

@@ -30,10 +30,6 @@ def moments(differences: ArrayLike) -> Moments:
     differences : (n,) float
         Delivered minus reference; finite.
 
-    Returns
-    -------
-    Moments
-
     Notes
     -----
     RMSE is ISO 19157 measure 39. Summation after Shewchuk 1997 (``math.fsum``).

@@ -32,10 +32,6 @@ def anderson_darling(differences: ArrayLike) -> AndersonDarling:
     differences : (n,) float
         At least 3 that are not all one number. The fitted p is meant for n >= 8.
 
-    Returns
-    -------
-    AndersonDarling
-
     Raises
     ------
     ValueError

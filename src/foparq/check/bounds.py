@@ -51,8 +51,6 @@ def budget_of(part: Part, limits: LimitsSpec, spent: float) -> Budget:
 
     Parameters
     ----------
-    part : Part
-    limits : LimitsSpec
     spent : float
         Processor seconds that were used before.
     """

@@ -70,11 +70,9 @@ def missing(call: Call, rules: Mapping[str, Rule], outcomes: Sequence[Outcome], 
 
     Parameters
     ----------
-    call : Call
     rules : mapping of code to Rule
     outcomes : sequence of Outcome
         Of the rules that ran on this part so far.
-    subject : Subject
 
     Returns
     -------

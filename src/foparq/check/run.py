@@ -62,7 +62,6 @@ def check_part(
 
     Parameters
     ----------
-    part : Part
     profile : Profile
         Its checks must be valid, see :func:`foparq.check.validate.validate_checks`.
     scale : float or None

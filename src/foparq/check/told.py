@@ -20,8 +20,6 @@ def findings_of(call: Call, subject: Subject, inputs: tuple[Named, ...], found: 
 
     Parameters
     ----------
-    call : Call
-    subject : Subject
     inputs : tuple of Named
         What the rule looked at: hits are rows of the first, the others rows of the last.
     found : Hits, k rows

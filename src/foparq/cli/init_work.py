@@ -44,10 +44,8 @@ def manifest_text(found: Survey, title: str, say: Words) -> str:
 
     Parameters
     ----------
-    found : Survey
     title : str
         Proposed title.
-    say : Words
 
     Returns
     -------

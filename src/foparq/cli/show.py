@@ -30,7 +30,6 @@ def show(record: AuditRecord, form: str, say: Words, written: Sequence[Path]) ->
 
     Parameters
     ----------
-    record : AuditRecord
     form : str
         Name of a format that can be shown.
     say : Words

@@ -135,7 +135,6 @@ def interval(message: str, rows: Iterable[tuple[Balance, int]], **said: object) 
 
     Parameters
     ----------
-    message : str
     rows : iterable of (Balance, int)
         Classes and the most features.
     said

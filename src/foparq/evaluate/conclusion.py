@@ -21,16 +21,6 @@ def conclude_files(profile: Profile, evidence: Evidence, elements: Sequence[Elem
     A fault is a fault, whatever else was not seen. Without one, anything that was not looked at leaves it open: a file
     that could not be read, a rule that did not run, an item that no rule could judge, what the reader had to leave out,
     a drawing that holds nothing to check.
-
-    Parameters
-    ----------
-    profile : Profile
-    evidence : Evidence
-    elements : sequence of Element
-
-    Returns
-    -------
-    QualityReport
     """
     doubts = [*lost_files(evidence), *crashes(evidence), *_not_run(evidence), *_unseen(evidence)]
     if evidence.faults:

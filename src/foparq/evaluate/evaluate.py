@@ -26,8 +26,6 @@ def evaluate(profile: Profile, evidence: Evidence, *, loose: bool = False) -> Ev
 
     Parameters
     ----------
-    profile : Profile
-    evidence : Evidence
     loose : bool
         True for files without a manifest: faults and what nobody saw are concluded from, not elements.
 

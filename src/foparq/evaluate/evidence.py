@@ -65,20 +65,14 @@ def element(
 
     Parameters
     ----------
-    spec : ElementSpec
     measure : str
         Id in the catalogue.
-    judgement : Judgement
     id : str, optional
         Id of this result where the profile's element gives several.
     scope, n, value, limit, comparison, parameters, method, details
         As in :class:`Element`. Numbers that are not finite are left out.
     unit, kind : str, optional
         Unit and data quality element, where they are not the measure's own.
-
-    Returns
-    -------
-    Element
     """
     entry = measures()[measure]
     return Element(
@@ -94,8 +88,6 @@ def limit_of(spec: LimitedSpec, evidence: Evidence, symbol: str, name: str) -> t
 
     Parameters
     ----------
-    spec : LimitedSpec
-    evidence : Evidence
     symbol : str
         SI unit of the value.
     name : str
@@ -115,7 +107,6 @@ def unseen(evidence: Evidence, name: str) -> tuple[Reason, ...]:
 
     Parameters
     ----------
-    evidence : Evidence
     name : str
         Id of the element, for the reasons.
     """

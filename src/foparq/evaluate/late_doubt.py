@@ -12,7 +12,6 @@ def without_reports(quality: QualityReport, reports: Sequence[str]) -> QualityRe
 
     Parameters
     ----------
-    quality : QualityReport
     reports : sequence of str
         Names of their files.
     """

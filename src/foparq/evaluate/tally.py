@@ -45,13 +45,8 @@ def tally(evidence: Evidence, names: Sequence[str]) -> Tally:
 
     Parameters
     ----------
-    evidence : Evidence
     names : sequence of str
         Names of rules.
-
-    Returns
-    -------
-    Tally
     """
     named = [outcome for outcome in evidence.outcomes if outcome.name in names and not outcome.helper]
     counted = [outcome for outcome in named if not outcome.preview]

@@ -61,7 +61,6 @@ def judge_rmse(sample: Sample, spec: ReferencedSpec, limit: float) -> Judgement:
     ----------
     sample : Sample
         At least one row.
-    spec : ReferencedSpec
     limit : float
         Metres.
 

@@ -20,16 +20,6 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
 
     Rejected: a required element fails. Else undecided: a required element is undecided or not assessed, a file that the
     manifest names could not be read, something crashed, or nothing is required. Else accepted.
-
-    Parameters
-    ----------
-    profile : Profile
-    evidence : Evidence
-    elements : sequence of Element
-
-    Returns
-    -------
-    QualityReport
     """
     waived = {name for spec in profile.elements if not spec.applicable for name in _results(spec.id)}
     required = [element for element in elements if element.required and element.id not in waived]

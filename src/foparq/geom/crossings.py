@@ -36,7 +36,6 @@ def self_meetings(lines: Polylines, *, coincide: float) -> SelfMeetings:
 
     Parameters
     ----------
-    lines : Polylines
     coincide : float, metres
         Distance up to which two places are one.
 

@@ -12,7 +12,6 @@ def leaving(lines: Polylines, vertex: Index, forward: Flags, *, radius: float) -
 
     Parameters
     ----------
-    lines : Polylines
     vertex : (k,) int
     forward : (k,) bool
         Followed in the order of the line, else against it.

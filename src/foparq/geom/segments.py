@@ -136,10 +136,6 @@ def shared(a: Segments, b: Segments, *, within: float) -> Shared:
     ----------
     a, b : Segments, k rows
     within : float, metres
-
-    Returns
-    -------
-    Shared
     """
     long_a, long_b = np.hypot(*(a.end - a.start).T), np.hypot(*(b.end - b.start).T)
     swap = _goes_first(b, a, long_b - long_a)

@@ -49,10 +49,6 @@ def join_pieces(group: Index, start: Reals, end: Reals, *, gap: float) -> Stretc
         A piece without length is a point.
     gap : float, metres
         Pieces not farther apart than this touch.
-
-    Returns
-    -------
-    Stretches
     """
     if not len(group):
         nothing = np.empty(0, dtype=np.intp)

@@ -37,10 +37,6 @@ def joints(lines: Polylines, short: Flags, *, within: float) -> Joints:
     within : float, metres
         Distance up to which places are one, in the plane and in depth.
 
-    Returns
-    -------
-    Joints
-
     Notes
     -----
     O(t log t + near pairs); strokes at one place cost no pairs.
@@ -68,8 +64,6 @@ def near_tips(lines: Polylines, found: Joints, vertex: Index, *, within: float) 
 
     Parameters
     ----------
-    lines : Polylines
-    found : Joints
     vertex : (v,) int
         Rows of the coordinates.
     within : float, metres

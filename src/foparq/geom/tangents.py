@@ -27,7 +27,6 @@ def runs_along(lines: Polylines, i: Index, j: Index, start: Reals, end: Reals, *
 
     Parameters
     ----------
-    lines : Polylines
     i, j : (k,) int
         Pairs of segments.
     start, end : (k, 2) metres

@@ -17,7 +17,6 @@ def choose(profile: Profile, names: Collection[str], helpers: Collection[str] = 
 
     Parameters
     ----------
-    profile : Profile
     names : collection of str
         Rules whose findings are told.
     helpers : collection of str
@@ -38,14 +37,9 @@ def with_settings(profile: Profile, settings: Sequence[str]) -> Profile:
 
     Parameters
     ----------
-    profile : Profile
     settings : sequence of str
         ``"undershoot.reach=10mm"``, ``"*.coincide=1um"`` for every rule that has the tolerance,
         ``"reading.blocks=skip"``.
-
-    Returns
-    -------
-    Profile
 
     Raises
     ------

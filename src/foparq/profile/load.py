@@ -79,10 +79,6 @@ def load_profile(name: str, beside: Path | None = None) -> Profile:
     beside : Path, optional
         Folder that a relative path starts from.
 
-    Returns
-    -------
-    Profile
-
     Raises
     ------
     ProfileError

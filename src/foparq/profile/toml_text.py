@@ -47,13 +47,8 @@ def read_toml(path: Path, kind: type[UsageError]) -> TomlText:
 
     Parameters
     ----------
-    path : Path
     kind : type of UsageError
         What to raise.
-
-    Returns
-    -------
-    TomlText
 
     Raises
     ------

@@ -58,7 +58,6 @@ def read_delivery(
     ----------
     root : Path
         Folder of the delivery. Nothing outside is opened, nothing is written.
-    manifest : Manifest
     manifest_name : str
         File name of the manifest in the folder; ``""`` if it was not read from a file there.
     profile : Profile

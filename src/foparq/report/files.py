@@ -67,17 +67,12 @@ def write_reports(record: AuditRecord, log: Sequence[str], folder: Path, progres
 
     Parameters
     ----------
-    record : AuditRecord
     log : sequence of str
         Tracebacks of what crashed on our side before.
     folder : Path
         Where the reports go. Files of an earlier run are replaced.
     progress : callable, optional
         Told the name of each file before it is written.
-
-    Returns
-    -------
-    Written
 
     Raises
     ------

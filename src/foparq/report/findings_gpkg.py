@@ -37,7 +37,6 @@ def write_findings_gpkg(record: AuditRecord, path: Path) -> None:
 
     Parameters
     ----------
-    record : AuditRecord
     path : Path
         Replaced if it exists.
 

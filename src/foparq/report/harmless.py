@@ -37,10 +37,6 @@ def _escaped(text: str) -> str:
 def cell(value: object) -> object:
     """Value as a cell of a table that a spreadsheet may open.
 
-    Parameters
-    ----------
-    value : object
-
     Returns
     -------
     object

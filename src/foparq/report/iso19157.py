@@ -55,7 +55,6 @@ def write_quality_xml(record: AuditRecord, path: Path) -> None:
 
     Parameters
     ----------
-    record : AuditRecord
     path : Path
         The file to write; an existing one is replaced.
 

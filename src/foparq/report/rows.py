@@ -33,7 +33,6 @@ def finding_columns(record: AuditRecord, words: Words | None = None) -> dict[str
 
     Parameters
     ----------
-    record : AuditRecord
     words : Words, optional
         Language of the sentences; that of the record if left out.
 

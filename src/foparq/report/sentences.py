@@ -25,8 +25,6 @@ def finding_sentences(words: Words, findings: Findings, rows: Index) -> list[str
 
     Parameters
     ----------
-    words : Words
-    findings : Findings
     rows : (k,) int
         Rows of the findings.
 
@@ -161,7 +159,6 @@ def parameters_sentence(words: Words, parameters: Iterable[tuple[str, float, str
 
     Parameters
     ----------
-    words : Words
     parameters : iterable of (name, value, SI unit)
     """
     return "; ".join(f"{parameter_name(words, name)} {words.quantity(value, unit)}" for name, value, unit in parameters)

@@ -28,7 +28,6 @@ class Columns:
 
     Parameters
     ----------
-    drawing : Drawing
     hidden : bool
         True if off and frozen layers are looked at too.
     """

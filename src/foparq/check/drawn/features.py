@@ -79,7 +79,6 @@ def count_features(drawings: Sequence[Drawing], *, gap: float) -> FeatureCounts 
 
     Parameters
     ----------
-    drawings : sequence of Drawing
     gap : float
         Metres.
 

@@ -45,10 +45,6 @@ class _Statement:
 def unit_evidence(drawing: Drawing) -> UnitEvidence:
     """Statements of a drawing about its unit.
 
-    Parameters
-    ----------
-    drawing : Drawing
-
     Returns
     -------
     UnitEvidence, n rows

@@ -33,7 +33,6 @@ class DrawingSubject(Subject):
 
     Parameters
     ----------
-    part : Drawing
     profile : Profile
         Says whether hidden layers are looked at.
     """

@@ -21,11 +21,6 @@ AXES = ("X", "Y", "Z")
 def absolute(spec: AbsoluteSpec, evidence: Evidence) -> tuple[Element, ...]:
     """One result an axis: measure 39, strict ``<``.
 
-    Parameters
-    ----------
-    spec : AbsoluteSpec
-    evidence : Evidence
-
     Returns
     -------
     tuple of Element

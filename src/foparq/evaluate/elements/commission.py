@@ -36,11 +36,6 @@ def commission(spec: CommissionSpec, evidence: Evidence) -> tuple[Element, ...]:
        here: a list that is silent prohibits nothing.
     4. Otherwise it passes. Layers that are bound to no class are not assessed and never count.
 
-    Parameters
-    ----------
-    spec : CommissionSpec
-    evidence : Evidence
-
     Returns
     -------
     tuple of one Element

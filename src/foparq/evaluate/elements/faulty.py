@@ -26,11 +26,6 @@ def faulty_rate(spec: FaultyRateSpec, evidence: Evidence) -> tuple[Element, ...]
        result: undecided.
     6. Otherwise it passes.
 
-    Parameters
-    ----------
-    spec : FaultyRateSpec
-    evidence : Evidence
-
     Returns
     -------
     tuple of one Element

@@ -19,11 +19,6 @@ def found_rate(spec: FoundRateSpec, evidence: Evidence) -> tuple[Element, ...]:
 
     Without a limit the result is a number and no verdict: not applicable, or undecided where the profile requires it.
 
-    Parameters
-    ----------
-    spec : FoundRateSpec
-    evidence : Evidence
-
     Returns
     -------
     tuple of one Element

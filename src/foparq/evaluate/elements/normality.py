@@ -19,11 +19,6 @@ _FEWEST = 3  #: two numbers are normal in one way only
 def normality(spec: NormalitySpec, evidence: Evidence) -> tuple[Element, ...]:
     """Anderson-Darling p of the distance differences; it must exceed ``1 - confidence``.
 
-    Parameters
-    ----------
-    spec : NormalitySpec
-    evidence : Evidence
-
     Returns
     -------
     tuple of one Element

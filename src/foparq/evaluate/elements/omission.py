@@ -36,11 +36,6 @@ def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
     5. Classes that could not be compared: undecided, and named. No layer bound to a class is no evidence of omission.
     6. Otherwise it passes.
 
-    Parameters
-    ----------
-    spec : OmissionSpec
-    evidence : Evidence
-
     Returns
     -------
     tuple of one Element

@@ -16,11 +16,6 @@ _MEASURE = "foparq:distance-rmse"
 def relative(spec: RelativeSpec, evidence: Evidence) -> tuple[Element, ...]:
     """RMSE of distances against the limit, strict ``<``.
 
-    Parameters
-    ----------
-    spec : RelativeSpec
-    evidence : Evidence
-
     Returns
     -------
     tuple of one Element

@@ -25,11 +25,6 @@ _FEWEST = 3  #: two differences have one degree of freedom: hardly any trend wou
 def trend(spec: TrendSpec, evidence: Evidence) -> tuple[Element, ...]:
     """Student t of the mean difference of each axis; the absolute value of t must not exceed the critical value.
 
-    Parameters
-    ----------
-    spec : TrendSpec
-    evidence : Evidence
-
     Returns
     -------
     tuple of Element

@@ -34,10 +34,6 @@ def count_blocks(own: Mapping[str, int], uses: Uses) -> Census:
     uses : mapping of str to sequence of (str, int)
         Blocks that each block inserts, and times; all of them are keys of ``own``.
 
-    Returns
-    -------
-    Census
-
     Notes
     -----
     Linear in blocks and inserts of the definitions, without recursion: blocks are taken in topological order. What no
@@ -95,7 +91,6 @@ def admit(wanted: Mapping[str, int], census: Census, room: int) -> dict[str, int
     ----------
     wanted : mapping of str to int
         Blocks inserted at top level, and times.
-    census : Census
     room : int
         Entities that may still be made.
 

@@ -75,10 +75,8 @@ def flatten_arc(centre: Point, radius: float, start: float, sweep: float, sagitt
     Parameters
     ----------
     centre : tuple = (x, y, z)
-    radius : float
     start, sweep : float
         Radians, counter-clockwise; a sweep of a full turn repeats the first vertex exactly.
-    sagitta : Sagitta
 
     Returns
     -------
@@ -123,7 +121,6 @@ def flatten_bulge(first: Point, second: Point, bulge: float, sagitta: Sagitta) -
         The vertices themselves; they are not returned and stay as delivered.
     bulge : float
         Tangent of a quarter of the swept angle; positive counter-clockwise.
-    sagitta : Sagitta
 
     Returns
     -------

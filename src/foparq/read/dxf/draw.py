@@ -36,7 +36,6 @@ def draw(kind: str, facts: Facts, sagitta: Sagitta) -> Shape | Unseen:  # noqa: 
         Entity type.
     facts : Facts
         As read; what is unseen stays so.
-    sagitta : Sagitta
 
     Returns
     -------

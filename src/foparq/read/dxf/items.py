@@ -35,7 +35,6 @@ def place_contents(
 
     Parameters
     ----------
-    contents : dict of str to Content
     order : sequence of str
         Every definition before those it inserts.
     refused : set of str

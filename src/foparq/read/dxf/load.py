@@ -42,13 +42,8 @@ def load_document(path: Path, most_bytes: int) -> Loaded:
 
     Parameters
     ----------
-    path : Path
     most_bytes : int
         Larger files are refused unread.
-
-    Returns
-    -------
-    Loaded
 
     Raises
     ------

@@ -41,7 +41,6 @@ def read_dxf(
 
     Parameters
     ----------
-    path : Path
     limits : LimitsSpec
         Bounds of bytes, entities and vertices. Time and memory are bounded by the process this runs in.
     sagitta : float, metres
@@ -51,10 +50,6 @@ def read_dxf(
         Unit that the user states; wins over the header.
     blocks : {"explode", "skip"}
         ``skip``: only what stands in model space itself.
-
-    Returns
-    -------
-    RawDrawing
 
     Raises
     ------

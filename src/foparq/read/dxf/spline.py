@@ -18,9 +18,7 @@ def flatten_spline(control: Reals, knots: Reals, degree: int, weights: Reals | N
     ----------
     control : (n, 3) control points
     knots : (n + degree + 1,) knots, not decreasing
-    degree : int
     weights : (n,) positive, or None
-    sagitta : Sagitta
 
     Returns
     -------

@@ -25,7 +25,6 @@ def doubly_encoded(name: str, encoding: str) -> bool:
 
     Parameters
     ----------
-    name : str
     encoding : str
         Encoding of the file.
 

@@ -68,7 +68,6 @@ def lettered_dimension(entity: Any, handle: str) -> Lettered | None:  # noqa: AN
     Parameters
     ----------
     entity : ezdxf DIMENSION
-    handle : str
 
     Returns
     -------

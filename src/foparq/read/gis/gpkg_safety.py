@@ -160,7 +160,6 @@ def opened(path: Path, seconds: float, *, longest: int = _LONGEST_TEXT) -> Itera
 
     Parameters
     ----------
-    path : Path
     seconds : float
         Time until every query is given up.
     longest : int

@@ -47,7 +47,6 @@ def items_of(layer: LayerRows, *, prefix: str) -> tuple[Items, tuple[Skipped, ..
 
     Parameters
     ----------
-    layer : LayerRows
     prefix : str
         Written before the feature id to make the item id unique in the file: ``"plots:"``.
 

@@ -48,10 +48,6 @@ def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, calle
     called : str
         Name of the layer for people; that of the table if left out.
 
-    Returns
-    -------
-    LayerRows
-
     Raises
     ------
     pyogrio.errors.GeometryError

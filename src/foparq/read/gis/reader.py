@@ -62,10 +62,6 @@ def read_gis(
     layers : tuple of str
         Tables of a GeoPackage to read; all if empty. Other formats have one.
 
-    Returns
-    -------
-    RawDrawing
-
     Raises
     ------
     UnreadableError

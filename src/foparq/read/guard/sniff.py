@@ -45,10 +45,6 @@ def format_of(path: Path) -> Format:
     path : Path
         A regular file.
 
-    Returns
-    -------
-    Format
-
     Raises
     ------
     UnreadableError

@@ -44,7 +44,6 @@ def streamed(
     ----------
     function : callable
         Importable by name, as are its arguments picklable, where the process has several threads.
-    args : tuple
     seconds, at_once : float
         Processor time in all, and between two things.
     memory : int

@@ -76,10 +76,6 @@ def read_sheet(path: Path, *, known: Mapping[str, Sequence[str]], required: Sequ
     example : str
         A right first line.
 
-    Returns
-    -------
-    Sheet
-
     Raises
     ------
     UnreadableError

@@ -47,7 +47,6 @@ def survey_folder(folder: Path, profile: Profile) -> Survey:
 
     Parameters
     ----------
-    folder : Path
     profile : Profile
         Its limits hold.
 

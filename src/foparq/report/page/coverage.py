@@ -82,8 +82,6 @@ def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -
 
     Parameters
     ----------
-    words : Words
-    record : AuditRecord
     pictures : tuple of Picture
         They know how much of each drawing is hidden.
     """

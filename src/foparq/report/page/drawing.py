@@ -87,7 +87,6 @@ def picture_of(drawing: Drawing, number: int, findings: Findings, shown: Index) 
 
     Parameters
     ----------
-    drawing : Drawing
     number : int
         Ordinal among the drawings, from 1.
     findings : Findings

@@ -152,9 +152,6 @@ def group_view(words: Words, listing: Listing, group: Group, suffix: str) -> Gro
 
     Parameters
     ----------
-    words : Words
-    listing : Listing
-    group : Group
     suffix : str
         What distinguishes the anchors of this language.
     """

@@ -56,7 +56,6 @@ def write_page(record: AuditRecord, path: Path) -> None:
     ----------
     record : AuditRecord
         The page is complete in both languages; that of the record is shown first.
-    path : Path
 
     Notes
     -----
