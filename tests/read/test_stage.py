@@ -95,10 +95,9 @@ def test_a_link_leads_to_the_file_and_is_gone_afterwards(tmp_path: Path) -> None
 
 def test_what_a_killed_run_left_is_removed_and_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TMPDIR", str(tmp_path))
-    left = subprocess.run(
-        [sys.executable, "-c", "import os; from foparq.read.guard.stage import _made; print(_made()); os._exit(1)"],
-        capture_output=True, text=True, check=False,
-    ).stdout.strip()  # fmt: skip
+    killed = "import os; from foparq.read.guard.stage import _made; print(_made(), flush=True); os._exit(1)"
+    done = subprocess.run([sys.executable, "-c", killed], capture_output=True, text=True, check=False)
+    left = done.stdout.strip()
     assert Path(left).parent == tmp_path
     (Path(left) / "drawing.gpkg").symlink_to("/etc/hostname")
     kept = tmp_path / "foparq-crash-1.log"
