@@ -2,6 +2,7 @@
 """The engine: what is set aside, what is not run, what a crash does, and what names a finding."""
 
 import pickle
+import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 
@@ -15,9 +16,11 @@ from foparq.check.drawn.features import count_features
 from foparq.check.registry import all_rules, required_by
 from foparq.check.run import Begun, Checked, check_part
 from foparq.findings.because import Because
+from foparq.findings.hits import Hits, hits
 from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import Severity, join_findings
 from foparq.model.drawing import Drawing, DrawingUnit, Reading, UnitOrigin
+from foparq.model.inputs import Lines
 from foparq.model.items import Items, Role
 from foparq.model.part import Part
 from foparq.model.plane import Plane, plane_of
@@ -474,6 +477,17 @@ def test_a_part_whose_inputs_exceed_the_bounds_has_no_rule_run() -> None:
     bounded = check_part(drawing(POST_TWICE), PROFILE, 50, bounded=at_once)
     assert {found.because for found in bounded.outcomes} == {Because.LIMIT}
     assert len(bounded.outcomes) == len(PROFILE.checks)
+
+
+def test_time_is_that_of_the_processor(monkeypatch: pytest.MonkeyPatch) -> None:
+    def waiting(lines: Lines, **_tolerances: float) -> Hits:
+        time.sleep(0.3)
+        return hits(np.empty(0, dtype=np.intp), lines.geometry[:0], np.empty(0))
+
+    rules = dict(all_rules())
+    rules["TOP001"] = replace(rules["TOP001"], check=waiting)
+    monkeypatch.setattr(engine, "all_rules", lambda: rules)
+    assert outcome(check(drawing(POST_TWICE), "duplicate"), "duplicate").seconds < 0.2
 
 
 def test_a_part_of_no_known_kind_crashes_every_rule_and_ends_nothing() -> None:

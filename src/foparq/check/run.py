@@ -176,7 +176,7 @@ def _rest(part: Part, profile: Profile, done: Sequence[Result], broken: Broken) 
 def _run(
     number: int, call: Call, outcome: Outcome, subject: Subject, outcomes: Sequence[Outcome], rules: Mapping[str, Rule]
 ) -> Result:
-    start = time.perf_counter()
+    start = time.process_time()
     try:
         outcome, table = _looked(call, outcome, subject, outcomes, rules)
         trace = ""
@@ -185,7 +185,7 @@ def _run(
     except Exception:  # noqa: BLE001 - whatever a rule does wrong is our fault and must not end the audit
         outcome, table = _broken(outcome, Broken(Because.CRASHED)), None
         trace = f"{outcome.rule} {outcome.name} on {outcome.source}\n{traceback.format_exc()}"
-    return Result(number, replace(outcome, seconds=time.perf_counter() - start), table, trace)
+    return Result(number, replace(outcome, seconds=time.process_time() - start), table, trace)
 
 
 def _looked(

@@ -57,7 +57,7 @@ class Outcome:
     because: Because = Because.RAN
     names: tuple[str, ...] = ()  #: what ``because`` speaks of: required rules
     parameters: tuple[tuple[str, float, str], ...] = ()  #: name, value, SI unit
-    seconds: float = 0.0
+    seconds: float = 0.0  #: of the processor
     about_file: bool = False  #: the rule looks at statements of the file, not at items
     preview: bool = False  #: reported, cannot reject
     counts: bool = True  #: what it finds is told as a fault: it is no helper, no note, and not in preview
