@@ -76,7 +76,8 @@ class CloudSubject(Subject):
     def part(self) -> Part:
         return self.cloud
 
-    def knows(self, kind: type) -> bool:
+    @classmethod
+    def knows(cls, kind: type) -> bool:
         return kind is Marks
 
     def take(self, kind: type, layers: Patterns) -> Taken:

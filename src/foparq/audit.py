@@ -172,10 +172,16 @@ def _judged(
     outcomes = tuple(outcome for one in checked for outcome in one.outcomes)
     findings = join_findings([one.findings for one in checked])
     gap = profile.completeness.gap.si(scale) if profile.completeness and not loose else None
-    counts, uncounted = (None, ()) if gap is None else _counted(delivery, gap, profile)
-    traces = (*log, *(trace for one in checked for trace in one.log), *uncounted)
+    counts, broken = (None, None) if gap is None else _counted(delivery, gap, profile)
+    traces = (
+        *log,
+        *(trace for one in checked for trace in one.log),
+        *([broken.trace] if broken and broken.trace else []),
+    )
     evidence = Evidence(
-        delivery=delivery, outcomes=outcomes, counts=counts, scale=scale, crashed=bool(log or uncounted),
+        delivery=delivery, outcomes=outcomes, counts=counts, scale=scale,
+        uncounted=broken.because if broken else Because.RAN,
+        crashed=bool(log) or (broken is not None and broken.because is Because.CRASHED),
         faults=int(np.count_nonzero(findings.severity != Severity.NOTE)),
     )  # fmt: skip
     evaluated = evaluate(profile, evidence, loose=loose)
@@ -209,16 +215,16 @@ def _in_child(function: Callable[..., Iterator[object]], args: tuple[Any, ...], 
             yield thing
 
 
-def _counted(delivery: Delivery, gap: float, profile: Profile) -> tuple[FeatureCounts | None, tuple[str, ...]]:
-    """Delivered features, or what went wrong on our side; nothing of both if they cannot be counted within bounds."""
+def _counted(delivery: Delivery, gap: float, profile: Profile) -> tuple[FeatureCounts | None, Broken | None]:
+    """Delivered features, or why their count broke off."""
     seconds = sum(budget_of(part, profile.limits, 0.0).seconds for part in delivery.parts) or 1.0
     try:
         count = partial(count_features, gap=gap)
-        return guarded(count, delivery.drawings, file="", seconds=seconds, memory=profile.limits.check_memory), ()
+        return guarded(count, delivery.drawings, file="", seconds=seconds, memory=profile.limits.check_memory), None
     except UnsafeError:
-        return None, ()
+        return None, Broken(Because.LIMIT)
     except Exception:  # noqa: BLE001 - a crash is ours: elements that need the counts are undecided
-        return None, (f"counting features\n{traceback.format_exc()}",)
+        return None, Broken(Because.CRASHED, f"counting features\n{traceback.format_exc()}")
 
 
 def versions() -> dict[str, str]:

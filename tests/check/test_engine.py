@@ -14,7 +14,7 @@ from foparq.check import run as engine
 from foparq.check.bounds import Bounded, Broken, Budget
 from foparq.check.drawn.features import count_features
 from foparq.check.registry import all_rules, required_by
-from foparq.check.run import Begun, Checked, check_part
+from foparq.check.run import Begun, Checked, Result, check_part
 from foparq.findings.because import Because
 from foparq.findings.hits import Hits, hits
 from foparq.findings.outcome import Outcome, Status
@@ -479,6 +479,28 @@ def test_a_part_whose_inputs_exceed_the_bounds_has_no_rule_run() -> None:
     assert len(bounded.outcomes) == len(PROFILE.checks)
 
 
+@pytest.mark.parametrize("told", range(1, 19))
+def test_every_check_has_an_outcome_wherever_a_run_breaks_off(told: int) -> None:
+    def run(function: Callable[..., Iterator[object]], args: tuple, budget: Budget) -> Iterator[object]:  # noqa: ARG001 - the protocol
+        results = 0
+        for event in function(*args):
+            yield event
+            results += isinstance(event, Result)
+            if results == told:
+                yield Broken(Because.LIMIT)
+                return
+
+    areas = ["POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0))", "POLYGON ((2 0, 3 0, 3 1, 2 1, 2 0))"]
+    thing = drawing(areas, layers=["A", "B"])
+    bounded = check_part(thing, PROFILE, 50, bounded=run)
+    assert {found.name for found in bounded.outcomes} == {spec.rule for spec in PROFILE.checks}
+    for name in ("area-overlap", "gap"):
+        scopes = {found.scope for found in bounded.outcomes if found.name == name}
+        assert scopes >= {"a.dxf: A", "a.dxf: B"} or any(
+            found.because is Because.LIMIT for found in bounded.outcomes if found.name == name
+        )
+
+
 def test_time_is_that_of_the_processor(monkeypatch: pytest.MonkeyPatch) -> None:
     def waiting(lines: Lines, **_tolerances: float) -> Hits:
         time.sleep(0.3)
@@ -493,6 +515,7 @@ def test_time_is_that_of_the_processor(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_part_of_no_known_kind_crashes_every_rule_and_ends_nothing() -> None:
     @dataclass(frozen=True, kw_only=True)
     class Odd(Part):
+        features = 0
         vertices = 0
 
     checked = check_part(Odd(path="x"), PROFILE, 50)

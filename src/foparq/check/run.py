@@ -15,7 +15,7 @@ from foparq.check.bounds import Bounded, Broken, budget_of, unbounded
 from foparq.check.calls import Call, Judged, calls_of, judged, missing
 from foparq.check.registry import all_rules, in_order
 from foparq.check.rule import Rule
-from foparq.check.subject import Subject, subject_of
+from foparq.check.subject import Subject, kind_of_subject
 from foparq.check.told import findings_of
 from foparq.findings.because import Because
 from foparq.findings.hits import NOBODY, Deviations, Hits
@@ -108,15 +108,13 @@ def results_of(part: Part, profile: Profile, scale: float | None, done: Sequence
     """Calls of all checks on one part, one after the other, beyond those that are done."""
     rules = all_rules()
     try:
-        subject = subject_of(part, profile)
+        subject = _subject(part, profile)
     except Exception:  # noqa: BLE001 - whatever goes wrong here is our fault and must not end the audit
         yield from _rest(part, profile, done, Broken(Because.CRASHED, f"{part.path}\n{traceback.format_exc()}"))
         return
     outcomes = [result.outcome for result in done]
     before = len(done)
-    for n, (rule, spec) in enumerate(_ordered(profile, subject.leading)):
-        if not subject.knows(rule.subject):
-            continue
+    for n, (rule, spec) in enumerate(_checks(part, profile)):
         for call in _calls(rule, spec, scale, subject):
             if before:
                 before -= 1
@@ -129,13 +127,22 @@ def results_of(part: Part, profile: Profile, scale: float | None, done: Sequence
             yield result
 
 
-def _ordered(profile: Profile, leading: Sequence[str]) -> list[Check]:
-    """Checks so that every rule comes after those it requires, and the leading ones first."""
-    rules = all_rules()
+def _subject(part: Part, profile: Profile) -> Subject:
+    kind = kind_of_subject(part)
+    if kind is None:
+        raise TypeError(f"no subject is declared for {type(part).__name__}")
+    return kind(part, profile)
+
+
+def _checks(part: Part, profile: Profile) -> list[Check]:
+    """Checks that concern a part: every rule after those it requires, and those that its subject reads first."""
+    rules, kind = all_rules(), kind_of_subject(part)
     by_name = {rule.name: rule for rule in rules.values()}
     checks = [(by_name[spec.rule], spec) for spec in profile.checks]
     order = {code: n for n, code in enumerate(in_order({rule.code for rule, _ in checks}))}
-    return sorted(checks, key=lambda check: (check[0].name not in leading, order[check[0].code]))
+    leading = kind.leading if kind else ()
+    ordered = sorted(checks, key=lambda check: (check[0].name not in leading, order[check[0].code]))
+    return [check for check in ordered if kind is None or kind.knows(check[0].subject)]
 
 
 def _calls(rule: Rule, spec: CheckSpec, scale: float | None, subject: Subject) -> list[Call]:
@@ -160,16 +167,14 @@ def _broken(outcome: Outcome, broken: Broken) -> Outcome:
 
 
 def _rest(part: Part, profile: Profile, done: Sequence[Result], broken: Broken) -> list[Result]:
-    """Every check that was not begun, broken."""
+    """Every check that was not begun, broken; so is the last one if it may have layers left."""
     last = done[-1].check if done else -1
-    checks = list(enumerate(_ordered(profile, ())))
-    scope = "{}: {}".format
     return [
         Result(
-            n, _broken(_before(rule, spec, part, scope(part.path, ", ".join(spec.layers))), broken), trace=broken.trace
+            n, _broken(_before(rule, spec, part, f"{part.path}: {', '.join(spec.layers)}"), broken), trace=broken.trace
         )
-        for n, (rule, spec) in checks
-        if n > last
+        for n, (rule, spec) in enumerate(_checks(part, profile))
+        if n > last or (n == last and spec.apart)
     ]
 
 

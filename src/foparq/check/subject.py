@@ -38,10 +38,21 @@ class Places(NamedTuple):
 
 
 class Subject(ABC):
-    """One part as the rules see it. Columns are built once, when a rule first asks."""
+    """One part as the rules see it. Columns are built once, when a rule first asks.
+
+    Parameters
+    ----------
+    part : Part
+        Of the kind that the subject is declared for.
+    profile : Profile
+        Says how the part is looked at.
+    """
 
     #: names of rules whose outcome :meth:`doubt` reads: they run first
     leading: tuple[str, ...] = ()
+
+    @abstractmethod
+    def __init__(self, part: Part, profile: Profile) -> None: ...
 
     @property
     @abstractmethod
@@ -53,8 +64,9 @@ class Subject(ABC):
     def metres(self) -> float:
         """Metres in one unit of the file."""
 
+    @classmethod
     @abstractmethod
-    def knows(self, kind: type) -> bool:
+    def knows(cls, kind: type) -> bool:
         """Whether parts of this kind have such an input at all; rules on others do not concern them."""
 
     @abstractmethod
@@ -105,11 +117,10 @@ class Subject(ABC):
         """Where the hits of a rule on an input lie."""
 
 
-Build = Callable[[Part, Profile], Subject]
 S = TypeVar("S", bound=type[Subject])
 
-#: type of a part, and what makes a subject of it
-SUBJECTS: dict[type[Part], Build] = {}
+#: type of a part, and the type of its subject
+SUBJECTS: dict[type[Part], type[Subject]] = {}
 
 
 def subject(kind: type[Part]) -> Callable[[S], S]:
@@ -122,16 +133,10 @@ def subject(kind: type[Part]) -> Callable[[S], S]:
     return declare
 
 
-def subject_of(part: Part, profile: Profile) -> Subject:
-    """A part as the rules see it.
-
-    Raises
-    ------
-    KeyError
-        If nobody declared a subject for its kind.
-    """
+def kind_of_subject(part: Part) -> type[Subject] | None:
+    """The subject that is declared for a kind of part; ``None`` if nobody did."""
     _load()
-    return SUBJECTS[type(part)](part, profile)
+    return SUBJECTS.get(type(part))
 
 
 @cache

@@ -17,6 +17,7 @@ import numpy as np
 from foparq.columns import Texts
 from foparq.evaluate.evidence import Evidence, Judgement, judged
 from foparq.evaluate.quality import ElementStatus, Reason, because
+from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.model.tables import FeatureList
 
@@ -154,6 +155,9 @@ def gap_reasons(rows: tuple[Balance, ...], name: str, gaps: tuple[Incomparable, 
     )
 
 
+_BROKEN_OFF = {Because.LIMIT: "features.limit", Because.CRASHED: "features.crashed"}
+
+
 def no_balance(evidence: Evidence, name: str) -> Judgement | None:
     """Why features cannot be compared at all; ``None`` if they can."""
     features, drawings = evidence.delivery.features, evidence.delivery.drawings
@@ -167,6 +171,8 @@ def no_balance(evidence: Evidence, name: str) -> Judgement | None:
     unread = (because("unseen.file", element=name, files=lost),) if lost else uncounted(evidence, name)
     if unread:
         return judged(ElementStatus.UNDECIDED, *unread)
+    if evidence.uncounted.opens:
+        return judged(ElementStatus.UNDECIDED, because(_BROKEN_OFF[evidence.uncounted], element=name))
     bound = any(drawing.classes for drawing in drawings)
     case = "features.not-counted" if bound else "features.no-classes" if drawings else "checks.no-drawing"
     return judged(ElementStatus.NOT_ASSESSED, because(case, element=name))

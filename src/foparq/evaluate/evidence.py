@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from foparq.evaluate.measures import measures
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
+from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import LOST, Delivery
@@ -25,6 +26,7 @@ class Evidence:
     outcomes: Sequence[Outcome]
     counts: FeatureCounts | None  #: delivered features; ``None`` if they were not counted
     scale: float | None  #: denominator k of 1:k
+    uncounted: Because = Because.RAN  #: why the count of features broke off: ``LIMIT`` or ``CRASHED``
     faults: int = 0  #: findings that are no notes
     crashed: bool = False  #: something of the program crashed outside the rules
 

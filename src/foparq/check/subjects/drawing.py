@@ -56,7 +56,8 @@ class DrawingSubject(Subject):
         """Metres in one drawing unit; 1 if it is unknown."""
         return self.columns.metres
 
-    def knows(self, kind: type) -> bool:
+    @classmethod
+    def knows(cls, kind: type) -> bool:
         """Linework and statements of the file."""
         return kind in _LINEWORK or kind in FACTS
 
