@@ -55,6 +55,13 @@ def test_strokes_join_in_depth_as_in_the_plane() -> None:
     assert top_of_the_post(BEAM, POST, high, *chain)[0] is EndKind.UNDERSHOOT
 
 
+@pytest.mark.parametrize("low", [[], ["LINESTRING Z (0 -0.005 0, 0 -0.0047 0)"]], ids=["over the end", "over a stroke"])
+def test_a_stroke_overhead_joins_nothing_below(low: list[str]) -> None:
+    overhead = ["LINESTRING Z (-1 -0.005 0.1, 1 -0.005 0.1)", "LINESTRING Z (0 -0.005 0.1, 0 -0.0046 0.1)"]
+    deep = ["LINESTRING Z (-1 0 0, 1 0 0)", "LINESTRING Z (0 -0.005 0, 0 -1 0)"]
+    assert top_of_the_post(*deep, *overhead, *low) == (EndKind.UNDERSHOOT, pytest.approx(0.005), 0)
+
+
 def test_a_line_that_comes_back_to_itself_through_strokes_is_no_loose_end() -> None:
     ring = "LINESTRING (0 0, 1 0, 1 1, 0 1, 0 0.001)"
     ends = classify_ends(
