@@ -53,7 +53,8 @@ def drawing(
         geometry=geometry, layer=np.array(layers or ["0"] * n, dtype=object), kind=np.full(n, "LINE", dtype=object),
         role=np.array(roles, dtype=object), item=names, handle=names.copy(),
         inserts=np.array(inserts or [""] * n, dtype=object), colour=np.full(n, 256, dtype=np.int32),
-        closed=np.zeros(n, dtype=bool), visible=np.array(visible or [True] * n), paper=np.zeros(n, dtype=bool),
+        closed=np.zeros(n, dtype=bool), visible=np.array(visible or [True] * n, dtype=bool),
+        paper=np.zeros(n, dtype=bool),
     )  # fmt: skip
     frame = plane_of(plane, geometry)
     return Drawing(path="a.dxf", items=items, reading=Reading(), unit=unit, plane=frame, **said)  # type: ignore[arg-type]
@@ -409,6 +410,18 @@ def test_an_odd_item_changes_nothing_for_the_others(odd: str) -> None:
     assert not [found for found in beside.outcomes if found.status is Status.CRASHED]
     ours = [n for n, item in enumerate(beside.findings.item) if int(item, 16) < 16 + len(good)]
     assert set(alone.findings.key) == set(beside.findings.key[ours])
+
+
+@pytest.mark.parametrize(
+    "empty",
+    [drawing([]), drawing(T_JUNCTION_4MM_SHORT, visible=[False] * 3), drawing(["POINT (0 0)"], role=Role.ANNOTATION)],
+    ids=["no item", "none visible", "lettering only"],
+)
+def test_a_drawing_without_anything_to_check_crashes_no_rule(empty: Drawing) -> None:
+    checked = check(empty)
+    assert checked.log == ()
+    geometric = [found for found in checked.outcomes if not found.about_file]
+    assert {found.because for found in geometric} == {Because.NOTHING}
 
 
 def test_every_finding_has_one_place_on_its_fault() -> None:

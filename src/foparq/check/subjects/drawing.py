@@ -128,9 +128,8 @@ class DrawingSubject(Subject):
     @cached_property
     def _on_layer(self) -> dict[str, Index]:
         # Rows of the columns by layer; they are in order of layers.
-        names, start = np.unique(self.columns.layer.astype(str), return_index=True)
-        ends = np.append(start[1:], len(self.columns.layer))
-        return {name: np.arange(a, b) for name, a, b in zip(names.tolist(), start.tolist(), ends.tolist(), strict=True)}
+        names, start, count = np.unique(self.columns.layer.astype(str), return_index=True, return_counts=True)
+        return {name: np.arange(a, a + n) for name, a, n in zip(names.tolist(), start, count, strict=True)}
 
     def _holding(self, kind: type) -> list[str]:
         of = self.columns.of_kind(kind, np.arange(len(self.columns.rows)))
