@@ -74,3 +74,47 @@ def test_nested_areas_have_the_inner_one_in_common() -> None:
     assert np.all(found.smaller > found.larger)
     assert found.area == pytest.approx(shapely.area(areas[found.smaller]))
     assert shapely.equals(found.common, areas[found.smaller]).all()
+
+
+CUP = "POLYGON ((0 0, 4 0, 4 3, 3 3, 3 1, 1 1, 1 3, 0 3, 0 0))"  # open above, 2 m wide and deep
+LID = "POLYGON ((0 3, 4 3, 4 3.5, 0 3.5, 0 3))"
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_cup_and_its_lid_enclose_a_gap_between_the_larger_and_the_smaller(*, swapped: bool) -> None:
+    order = [LID, CUP] if swapped else [CUP, LID]
+    found = coverage_gaps(np.array([shapely.from_wkt(area) for area in order]), coincide=1e-3, most=4.0)
+    assert found.area == pytest.approx([4.0], abs=1e-6)
+    assert (order[found.first[0]], order[found.second[0]]) == (CUP, LID)
+
+
+@pytest.mark.parametrize("last", range(5))
+def test_of_several_areas_those_that_bound_most_of_a_gap_are_named(last: int) -> None:
+    # Around a gap of 3 m by 2 m: below; left and right, of 4 and 8 m2; above in two parts, of 7 and 2 m2.
+    around = [
+        shapely.box(0, -1, 3, 0), shapely.box(-1, -1, 0, 3), shapely.box(3, -1, 5, 3), shapely.box(0, 2, 1, 9),
+        shapely.box(1, 2, 3, 3),
+    ]  # fmt: skip
+    rolled = around[last:] + around[:last]
+    found = coverage_gaps(np.array(rolled), coincide=1e-3, most=6.0)
+    assert found.area == pytest.approx([6.0], abs=1e-6)
+    # 3 m below; then 2 m at the left, the right and above, of which the largest area is named.
+    assert [rolled[found.first[0]], rolled[found.second[0]]] == [around[0], around[2]]
+
+
+@pytest.mark.parametrize("far", [[0], [2], [0, 3]])
+def test_areas_beyond_the_earth_are_passed_over_and_the_others_keep_their_rows(far: list[int]) -> None:
+    drawn = [shapely.from_wkt(LID), shapely.from_wkt(CUP)]
+    for row in far:
+        drawn.insert(row, shapely.box(1e15, 0, 2e15, 1e15))
+    found = coverage_gaps(np.array(drawn), coincide=1e-3, most=4.0)
+    assert [drawn[row].area for row in (found.first[0], found.second[0])] == [8.0, 2.0]
+    assert found.area == pytest.approx([4.0], abs=1e-6)
+
+
+def test_gaps_come_in_order_of_the_areas_that_bound_them() -> None:
+    cups = [affinity.translate(shapely.from_wkt(area), x, 0) for x in (30, 20, 10) for area in (LID, CUP)]
+    found = coverage_gaps(np.array(cups), coincide=1e-3, most=4.0)
+    assert found.first.tolist() == [1, 3, 5]
+    assert found.second.tolist() == [0, 2, 4]
+    assert shapely.centroid(found.gap).tolist() == [shapely.Point(x, 2) for x in (32, 22, 12)]

@@ -50,7 +50,7 @@ def _kinds(lines: Lines, rows: Index, group: Index) -> Index:
     """Kind (n,) of each row: 0 for lines, else a number for boundaries whose areas have the same rings."""
     kind = np.zeros(len(lines), dtype=np.intp)
     bounds = rows[lines.bounds[rows]]
-    concerned = np.flatnonzero(lines.bounds & np.isin(lines.row, lines.row[bounds]))
+    concerned = np.flatnonzero(np.isin(lines.row, lines.row[bounds]))
     rings: dict[int, list[int]] = {}
     for item, ring in zip(lines.row[concerned].tolist(), group[concerned].tolist(), strict=True):
         rings.setdefault(item, []).append(ring)
