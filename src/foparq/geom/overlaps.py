@@ -60,18 +60,10 @@ def line_overlaps(lines: Polylines, exempt: Flags, *, coincide: float) -> Overla
     middle = (run.start[kept] + run.end[kept]) / 2
     # Of equal pieces the one nearest to an end of either line: the same whichever way the drawing is turned.
     tie = np.minimum(_from_an_end(lines, earlier, middle), _from_an_end(lines, later, middle))
-    row = kept[longest(label, run.length[kept], tie, middle, slack=lines.slack)]
-    over = length > within
-    first, second = _from_the_longest(
-        lines, exempt, (pair % max(len(lines), 1))[over], (pair // max(len(lines), 1))[over]
-    )
-    return Overlaps(
-        first,
-        second,
-        length[over],
-        run.start[row][over],
-        run.end[row][over],
-    )
+    over = np.flatnonzero(length > within)
+    row = kept[longest(label, run.length[kept], tie, middle, slack=lines.slack)][over]
+    first, second = _from_the_longest(lines, exempt, lines.line[i[row]], lines.line[j[row]])
+    return Overlaps(first, second, length[over], run.start[row], run.end[row])
 
 
 def _from_an_end(lines: Polylines, line: Index, place: Reals) -> Reals:
