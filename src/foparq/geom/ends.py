@@ -184,8 +184,8 @@ def _joined(asked: _Asked, back: Index, within: float) -> Index:
     alone = np.full(len(several), NOBODY, dtype=np.intp)
     alone[touched] = line
     met = (several[joint] > 1) | ((several[joint] == 1) & (alone[joint] != asked.line[end]))
-    # A joint that touches the end's own line only: elsewhere, or at the end alone?
-    own = np.flatnonzero((several[joint] == 1) & ~met)
+    # A joint that touches one line, maybe the end's own: elsewhere, or at the end alone?
+    own = np.flatnonzero(several[joint] == 1)
     order = np.argsort(found.touching, kind="stable")
     first, last = (np.searchsorted(found.touching[order], joint[own], side=side) for side in ("left", "right"))
     of, at = ragged(first, last - first)
