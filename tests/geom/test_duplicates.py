@@ -112,13 +112,14 @@ def halved(way: NDArray[np.float64]) -> NDArray[np.float64]:
 @pytest.mark.parametrize("seed", range(6))
 def test_copies_are_as_deep_as_what_they_repeat(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    ways = []
+    ways, deep = [], np.array([0, 0, 2 * COINCIDE])
     for n in range(12):
-        way = np.cumsum(rng.uniform(-1, 1, (rng.integers(3, 7), 3)), axis=0) + [0, 0, rng.choice([0, -40, 700])]
+        way = np.cumsum(rng.uniform(-1, 1, (rng.integers(3, 7), 3)), axis=0)
+        way[:, 2] += rng.choice([0, -40, 700])
         ways.append(np.vstack([way, way[:1]]) if n % 2 else way)
     # Alike in the plane, and no copies: all of it is deeper, or one vertex more is.
-    deeper = [way + [0, 0, 2 * COINCIDE] for way in ways]
-    dented = [np.insert(way, 1, way[:2].mean(axis=0) + [0, 0, 2 * COINCIDE], axis=0) for way in ways]
+    deeper = [way + deep for way in ways]
+    dented = [np.insert(way, 1, way[:2].mean(axis=0) + deep, axis=0) for way in ways]
     copies = [halved(way)[::-1] + rng.uniform(-0.4, 0.4, 3) * COINCIDE for way in (*ways, *deeper, *dented)]
     lines = np.array([shapely.LineString(way) for way in (*ways, *deeper, *dented, *copies)], dtype=object)
     found = duplicate_groups(Polylines.of(lines), coincide=COINCIDE)
