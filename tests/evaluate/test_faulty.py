@@ -257,6 +257,13 @@ def test_a_required_rate_without_a_limit_is_undecided() -> None:
     assert (element.status, messages(element)) == (UNDECIDED, ["limit.none", "found.reported"])
 
 
+def test_a_rate_that_nobody_requires_needs_no_limit() -> None:
+    optional = spec("found-rate", rules=("gap",), required=False)
+    element = one(optional, delivery=HERE, outcomes=[outcome("gap", [1], checked=10)])
+    assert (element.status, messages(element)) == (ElementStatus.NOT_APPLICABLE, ["found.reported"])
+    assert (element.value, element.n, element.limit) == (0.1, 10, None)
+
+
 def test_surfaces_and_duplicates_speak_of_other_elements_of_quality() -> None:
     overlap = spec("found-rate", required=False, rules=("area-overlap",))
     assert one(overlap, delivery=HERE, outcomes=[outcome("area-overlap", checked=9)]).element == "ConceptualConsistency"

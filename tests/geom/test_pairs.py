@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from foparq.geom import boxtree, runtree
-from foparq.geom.boxtree import BoxTree
+from foparq.geom.boxtree import BoxTree, z_order
 from foparq.geom.crossings import self_meetings
 from foparq.geom.overlaps import line_overlaps
 from foparq.geom.pairs import own_meetings
@@ -161,3 +161,34 @@ def test_a_chain_of_overlapping_lines_leaves_only_the_longest() -> None:
     shapes[7] = [(7, 0.0), (8.7, 0.0)]
     found = line_overlaps(Polylines.of(shapely.linestrings(shapes)), np.zeros(count, dtype=bool), coincide=1e-6)
     assert sorted(set(range(count)) - set(found.line.tolist())) == [7]
+
+
+def morton(x: int, y: int) -> int:
+    """Bits of both cells in turn, those of y in front."""
+    return sum(((x >> bit) & 1) << 2 * bit | ((y >> bit) & 1) << 2 * bit + 1 for bit in range(31))
+
+
+@pytest.mark.parametrize("side", [2, 8, 32])
+@pytest.mark.parametrize("corner", [0.0, -1e6, 7.4e6])
+def test_a_grid_is_ordered_quarter_by_quarter(side: int, corner: float) -> None:
+    cells = np.stack(np.meshgrid(np.arange(side), np.arange(side)), axis=-1).reshape(-1, 2)
+    places = np.random.default_rng(side).permutation(cells)
+    ranks = z_order(places * 0.25 + corner)
+    assert places[np.argsort(ranks)].tolist() == sorted(places.tolist(), key=lambda cell: morton(*cell))
+    # The last cell has all bits: 31 of each axis.
+    assert (ranks.min(), ranks.max()) == (0, 2**62 - 1)
+
+
+@pytest.mark.parametrize("far", [(1e7, 0), (-1e7, 0), (0, 1e7), (0, -1e7), (-1e7, 1e7)])
+def test_what_lies_far_outside_takes_no_fineness_from_the_bulk(far: tuple[float, float]) -> None:
+    rng = np.random.default_rng(3)
+    bulk = rng.uniform(0, 1, (5000, 2))
+    ranks = z_order(np.vstack([bulk, [far]]))
+    # The bulk keeps a fifth of either axis, of 256 steps more than 50: places of 5000 hit most of these cells.
+    assert len(np.unique(ranks[:-1] >> np.uint64(2 * (31 - 8)))) > 2000
+    assert len(np.unique(ranks)) == 5001
+
+
+def test_one_place_and_no_place_have_an_order() -> None:
+    assert z_order(np.zeros((0, 2))).tolist() == []
+    assert z_order(np.full((3, 2), 5.0)).tolist() == [0, 0, 0]

@@ -30,7 +30,7 @@ class BoxTree:
     """
 
     def __init__(self, low: Reals, high: Reals) -> None:
-        self._order = np.argsort(_z_order(low / 2 + high / 2), kind="stable")
+        self._order = np.argsort(z_order(low / 2 + high / 2), kind="stable")
         self._levels: list[tuple[Reals, Reals, Reals, Reals]] = []
         columns = [low[self._order, 0], low[self._order, 1], high[self._order, 0], high[self._order, 1]]
         while True:
@@ -100,7 +100,7 @@ class BoxTree:
         """
         ahead = np.arange(len(low))
         # Neighbours are asked together: the memory they touch is the same.
-        ahead = ahead[np.argsort(_z_order(low / 2 + high / 2), kind="stable")] if len(ahead) else ahead
+        ahead = ahead[np.argsort(z_order(low / 2 + high / 2), kind="stable")] if len(ahead) else ahead
         stack = [ahead[k : k + _CHUNK // 8] for k in range(0, len(ahead), _CHUNK // 8)][::-1]
         brood = np.arange(_FANOUT)
         while stack:
@@ -122,7 +122,7 @@ class BoxTree:
                     yield asked, self._order[node]
 
 
-def _z_order(points: Reals) -> NDArray[np.uint64]:
+def z_order(points: Reals) -> NDArray[np.uint64]:
     """Place of points (n, 2) along a Z-order curve of 2**31 cells a side."""
     if not len(points):
         return np.zeros(0, dtype=np.uint64)

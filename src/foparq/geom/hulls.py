@@ -75,7 +75,7 @@ def outermost(hulls: Geometries, group: Index) -> Flags:
         roots = np.flatnonzero(kept)
         block = block[~_covered(hulls, group, block, roots)]
         kept[block[~_covered(hulls, group, block, block)]] = True
-        start, step = start + step, max(_FIRST, start + step)
+        start = step = start + step
     return kept
 
 
