@@ -10,7 +10,7 @@ import shapely
 from scipy.interpolate import BSpline
 from tests.read.drawn import new, read_back
 
-from foparq.read.dxf.curves import Sagitta, axes
+from foparq.read.dxf.curves import Sagitta, axes, flatten_bulge
 from foparq.read.dxf.spline import flatten_spline
 
 
@@ -44,3 +44,16 @@ def test_a_spline_with_uneven_weights_keeps_the_sagitta(seed: int, degree: int) 
     dense = homogeneous(np.linspace(0, 1, 4000, endpoint=False))
     on_curve = shapely.points(dense[:, :2] / dense[:, 2:])
     assert shapely.distance(shapely.LineString(vertices), on_curve).max() <= sagitta * (1 + 1e-6)
+
+
+@pytest.mark.parametrize("bulge", [-2.0, -1.0, 0.25, 0.5, 1.0, 4.0])
+@pytest.mark.parametrize("chord", [0.125, 1.0, 8.0])
+def test_an_arc_no_higher_than_the_sagitta_is_its_chord(bulge: float, chord: float) -> None:
+    height = abs(bulge) * chord / 2  # of the arc above its chord
+    ends = (1.0, 1.0, 5.0), (1.0, 1.0 + chord, 5.0)
+    for within in (height, 1.5 * height, 3.9 * height):
+        assert len(flatten_bulge(*ends, bulge, Sagitta(within))) == 0
+    for beyond in (0.99 * height, height / 2, height / 4):
+        points = flatten_bulge(*ends, bulge, Sagitta(beyond))
+        assert len(points) > 0
+        assert set(points[:, 2]) == {5.0}
