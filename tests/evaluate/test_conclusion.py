@@ -100,6 +100,13 @@ def test_things_behind_which_faults_may_hide_are_counted_by_what_they_are() -> N
     assert told(report) == [("files.unseen", {"file": "a.dxf", "parts": ["1 × 3DFACE", "5 × PROXY"]})]
 
 
+def test_a_block_that_was_not_taken_apart_is_undecided_whichever_rules_were_chosen() -> None:
+    block = Skipped(kind="INSERT", name="B", count=2, reason=SkippedReason.BLOCK_BOMB, layer="0")
+    report = concluded(SEEN, parts=(drawing(skipped=(block,)),))
+    assert report.verdict is Verdict.UNDECIDED
+    assert told(report) == [("files.unseen", {"file": "a.dxf", "parts": ["2 × INSERT B"]})]
+
+
 def test_rules_that_did_not_run_are_told_by_reason_and_crashes_once() -> None:
     report = concluded(
         SEEN, not_run("z", Because.LIMIT), not_run("b", Because.LIMIT), not_run("c", Because.NOTHING),

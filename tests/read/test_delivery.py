@@ -409,3 +409,16 @@ def test_a_delivery_of_real_files_is_left_as_it_was(shared: Path, tmp_path: Path
     refused = [source.path for source in delivered.sources if source.status is SourceStatus.REFUSED]
     assert refused == ["empty.gpkg", "uint16.gpkg"]
     assert listing(tmp_path) == before
+
+
+def test_the_origin_is_that_of_the_linework_and_lettering_may_lie_anywhere(tmp_path: Path) -> None:
+    document = ezdxf.new()
+    space = document.modelspace()
+    space.add_text("north", dxfattribs={"insert": (-5000.5, -5000.5)})
+    space.add_line((40.5, 30.25), (41.5, 33))
+    document.saveas(tmp_path / "both.dxf")
+    space.delete_entity(space.query("LINE")[0])
+    document.saveas(tmp_path / "lettered.dxf")
+    files = [tmp_path / "both.dxf", tmp_path / "lettered.dxf"]
+    delivered, _ = read_loose(files, profile=profile(), scale=50, unit=None, plane="xy")
+    assert [drawing.plane.origin for drawing in delivered.drawings] == [(40.0, 30.0, 0.0), (-5001.0, -5001.0, 0.0)]

@@ -2,7 +2,7 @@
 """What the evaluation looks at, and what of the delivery nobody saw."""
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 from foparq.evaluate.measures import measures
@@ -11,7 +11,7 @@ from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import LOST, Delivery
-from foparq.model.drawing import Drawing, Skipped, SkippedReason
+from foparq.model.drawing import Drawing, SkippedReason
 from foparq.model.part import Part
 from foparq.profile.elements import ElementSpec, LimitedSpec
 
@@ -120,27 +120,29 @@ def unseen(evidence: Evidence, name: str) -> tuple[Reason, ...]:
             why.append(because("unseen.block", element=name, file=drawing.path, blocks=bombs[:5], n=len(bombs)))
         if repairs := len(drawing.reading.repairs):
             why.append(because("unseen.repaired", element=name, file=drawing.path, n=repairs))
-        if hidden := hidden_parts(drawing):
+        # Blocks that are not taken apart are told by name above.
+        if hidden := hidden_parts(drawing, but={SkippedReason.BLOCK_BOMB}):
             kinds = [kind for kind, _ in hidden]
             n = sum(count for _, count in hidden)
             why.append(because("unseen.skipped", element=name, file=drawing.path, kinds=kinds[:5], n=n))
     return tuple(why)
 
 
-def hidden_parts(part: Part) -> list[tuple[str, int]]:
-    """Things of a part that no check saw and behind which faults may hide, with their numbers, in order."""
+def hidden_parts(part: Part, *, but: Collection[SkippedReason] = ()) -> list[tuple[str, int]]:
+    """Things of a part that no check saw and behind which faults may hide, with their numbers, in order.
+
+    Parameters
+    ----------
+    but : collection of SkippedReason
+        Reasons that are left out.
+    """
     if not isinstance(part, Drawing):
         return []
     found: Counter[str] = Counter()
     for skipped in part.reading.skipped:
-        if _hides(skipped):
+        if skipped.reason.opens and skipped.reason not in but:
             found[skipped.thing] += skipped.count
     return sorted(found.items())
-
-
-def _hides(part: Skipped) -> bool:
-    # Blocks that are not taken apart are told by name above.
-    return part.reason.opens and part.reason is not SkippedReason.BLOCK_BOMB
 
 
 def _finite(value: float) -> bool:
