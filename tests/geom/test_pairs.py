@@ -70,6 +70,23 @@ def test_runs_find_the_pairs_that_brute_force_finds(seed: int, monkeypatch: pyte
     assert set(found) == expected
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_boxes_exactly_as_far_apart_as_the_distance_are_near(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    low = rng.integers(0, 30, (60, 2)).astype(float)
+    high = low + rng.integers(0, 4, (60, 2))
+    near = np.all((low[:, None] <= high[None] + 2) & (low[None] <= high[:, None] + 2), axis=2)
+    tree = BoxTree(low, high)
+    one_run = np.array([0, 60])
+    for found, expected in (
+        (tree.pairs(distance=2), np.triu(near, 1)), (tree.query(low, high, distance=2), near),
+        (runtree.pairs_of_runs(low, high, one_run, distance=2), np.triu(near, 2)),
+    ):  # fmt: skip
+        pairs = np.concatenate([np.stack(chunk) for chunk in found], axis=1)
+        pairs = pairs if expected is near else np.sort(pairs, axis=0)
+        assert sorted(pairs.T.tolist()) == np.argwhere(expected).tolist()
+
+
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(st.lists(walk, min_size=1, max_size=6))
 def test_segments_of_one_line_meet_where_shapely_says_so(lines: list[shapely.LineString]) -> None:
