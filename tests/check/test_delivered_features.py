@@ -358,3 +358,14 @@ def test_a_layer_that_exists_and_is_empty_is_evidence_of_omission() -> None:
     walls = drawing(["LINESTRING (0 0, 9 0)"], layer="PAREDE")
     walls = replace(walls, reading=Reading(layers=("PAREDE", "JANELA")))
     assert verdicts(walls)[1] is FAIL
+
+
+@pytest.mark.parametrize("metres", [1.0, 0.001, 0.3048, 100.0])
+def test_counts_are_the_same_in_any_unit(metres: float) -> None:
+    # Two panes 9 mm apart are one window, two 11 mm apart are two; what is 9 mm long is none.
+    pieces = [(0, 1), (1.009, 2), (2.011, 3), (9, 9.009)]
+    shapes = [f"LINESTRING ({a / metres} 0, {b / metres} 0)" for a, b in pieces]
+    unit = DrawingUnit(metres=metres, name="", origin=UnitOrigin.STATED)
+    counts = count_features([replace(drawing(shapes), unit=unit)], gap=GAP)
+    assert counts is not None
+    assert counts.count.tolist() == [2]

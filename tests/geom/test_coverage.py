@@ -118,3 +118,12 @@ def test_gaps_come_in_order_of_the_areas_that_bound_them() -> None:
     assert found.first.tolist() == [1, 3, 5]
     assert found.second.tolist() == [0, 2, 4]
     assert shapely.centroid(found.gap).tolist() == [shapely.Point(x, 2) for x in (32, 22, 12)]
+
+
+@pytest.mark.parametrize(("beyond", "count"), [(0.0, 1), (1.0, 0)])
+def test_what_reaches_to_the_end_of_the_earth_still_lies_on_it(beyond: float, count: int) -> None:
+    # No grid has a place farther than a hundred thousand kilometres from its origin.
+    for x, y in ((1e8 - 4, 0), (-1e8, 0), (0, 1e8 - 3.5), (0, -1e8)):
+        by = (x + np.sign(x) * beyond, y + np.sign(y) * beyond)
+        areas = np.array([affinity.translate(shapely.from_wkt(area), *by) for area in (CUP, LID)])
+        assert len(coverage_gaps(areas, coincide=1e-3, most=4.1).area) == count

@@ -38,6 +38,8 @@ class Selected:
             items[:] = sorted((i for i in items if i.nodeid in self._rank), key=lambda item: self._rank[item.nodeid])
 
     def pytest_runtest_logstart(self, nodeid: str) -> None:
+        if resume := getattr(sys.modules.get("sitecustomize"), "resume", None):
+            resume()
         # The default action of the signal ends the process wherever it hangs.
         signal.setitimer(signal.ITIMER_REAL, (self.order or {}).get(nodeid, 600.0))
 

@@ -7,10 +7,19 @@ Readers run in child processes that may write no file: a pipe reaches from there
 import os
 import sys
 import threading
+from collections.abc import Callable
 from types import CodeType, FrameType
 
 _PIPE = os.environ.get("FOPARQ_REACH")
 _INSIDE = f"{os.sep}src{os.sep}foparq{os.sep}"
+_TRACE: list[Callable[[FrameType, str, object], None]] = []
+
+
+def resume() -> None:
+    """Trace again: Python gives up a trace function in which a test's recursion ran out of depth."""
+    for called in _TRACE:
+        threading.settrace(called)
+        sys.settrace(called)
 
 
 def _start(pipe: int) -> None:
@@ -28,8 +37,8 @@ def _start(pipe: int) -> None:
             # Shorter than what a pipe takes at once: lines of several processes never mix.
             os.write(pipe, f"{file}\x1f{code.co_qualname}\x1f{test}\n".encode()[:4000])
 
-    threading.settrace(called)
-    sys.settrace(called)
+    _TRACE.append(called)
+    resume()
 
 
 if _PIPE:
