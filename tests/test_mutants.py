@@ -2,6 +2,9 @@
 """What the script that mutates the source changes, and what it leaves alone."""
 
 import ast
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 from tests.tools.mutants import by_chance, by_hand, changes, functions
@@ -71,3 +74,27 @@ def test_a_mutant_whose_text_is_gone_is_named(tmp_path: Path) -> None:
     made, stale = by_hand(data, tmp_path)
     assert [(one.start, one.old, one.why) for one in made] == [(0, "x = 1", "w")]
     assert stale == ["a.py: 2 times: = 1", "a.py: 0 times: z", "b.py: 0 times: x"]
+
+
+DEEP = """
+import sitecustomize
+
+def deep():
+    deep()
+
+try:
+    deep()
+except RecursionError:
+    pass
+sitecustomize.resume()
+from foparq.units import parse_scale
+parse_scale("1:50")
+"""
+
+
+def test_calls_are_still_told_after_a_test_whose_recursion_ran_out_of_depth(tmp_path: Path) -> None:
+    told = tmp_path / "reach"
+    told.touch()
+    given = {"PYTHONPATH": str(ROOT / "tests" / "tools" / "trace"), "FOPARQ_REACH": str(told)}
+    subprocess.run([sys.executable, "-c", DEEP], env={**os.environ, **given}, check=True)
+    assert "units.py\x1fparse_scale\x1f" in told.read_text()

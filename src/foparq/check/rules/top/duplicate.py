@@ -47,7 +47,7 @@ def duplicate(lines: Lines, *, coincide: Metres) -> Hits:
 
 
 def _kinds(lines: Lines, rows: Index, group: Index) -> Index:
-    """Kind (n,) of each row: 0 for lines, else a number for boundaries whose areas have the same rings."""
+    """Kind (n,) of each row that is a boundary: equal where the areas have the same rings."""
     kind = np.zeros(len(lines), dtype=np.intp)
     bounds = rows[lines.bounds[rows]]
     concerned = np.flatnonzero(np.isin(lines.row, lines.row[bounds]))
@@ -55,7 +55,7 @@ def _kinds(lines: Lines, rows: Index, group: Index) -> Index:
     for item, ring in zip(lines.row[concerned].tolist(), group[concerned].tolist(), strict=True):
         rings.setdefault(item, []).append(ring)
     numbers: dict[tuple[int, ...], int] = {}
-    of_item = {item: numbers.setdefault(tuple(sorted(of)), len(numbers) + 1) for item, of in rings.items()}
+    of_item = {item: numbers.setdefault(tuple(sorted(of)), len(numbers)) for item, of in rings.items()}
     kind[bounds] = [of_item[item] for item in lines.row[bounds].tolist()]
     return kind
 
