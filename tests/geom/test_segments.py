@@ -91,3 +91,21 @@ def test_a_crossing_is_one_in_space(z: float, drop: float, meets: bool) -> None:
         assert at_share(found.on_a[0], a.start, a.end)[0] == pytest.approx([1.0, 0.0])
         assert at_share(found.on_b[0], b.start, b.end)[0] == pytest.approx([1.0, 0.0])
         assert not found.meets[1:].any()
+
+
+@pytest.mark.parametrize("short", [0.0, 0.25, 1.0])
+@pytest.mark.parametrize("angle", [90.0, 30.0, 150.0])
+def test_segments_cross_up_to_their_ends_and_not_beyond(angle: float, short: float) -> None:
+    # The second comes from either side, and ends on the first or stops before it.
+    way = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
+    for side in (1, -1):
+        start, end = side * short * way, side * 3 * way
+        base = ((-2.0, 0.0, 0.0), (2.0, 0.0, 0.0))
+        for a, b in every_way(base, ((*start.tolist(), 0.0), (*end.tolist(), 0.0))):
+            found = contacts(a, b, within=WITHIN)
+            assert bool(found.meets[0, 0]) is (short == 0)
+            assert bool(found.meets.any()) is (short == 0)
+            if short:
+                assert np.isnan([found.on_a[0, 0], found.on_b[0, 0]]).all()
+            else:
+                assert at_share(found.on_a[0], a.start, a.end)[0] == pytest.approx([0.0, 0.0])
