@@ -16,6 +16,7 @@ from foparq.check.registry import all_rules
 from foparq.check.rule import Rule
 from foparq.findings.hits import NOBODY
 from foparq.findings.table import finding_keys
+from foparq.geom import boxtree, duplicates, runtree
 from foparq.geom.overlaps import line_overlaps
 from foparq.geom.places import place_on
 from foparq.geom.polylines import Polylines
@@ -122,6 +123,16 @@ def test_a_right_angle_changes_no_count_and_no_size(rule: Rule, seed: int) -> No
     turned = [shapely.transform(shape, lambda way: way[:, ::-1] * [-1, 1]) for shape in drawing]
     sizes = [Counter(size for *_, size in said(rule, shapes).elements()) for shapes in (drawing, turned)]
     assert sizes[0] == sizes[1]
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("rule", [rule for rule in RULES if rule.subject is Lines], ids=lambda rule: rule.name)
+def test_looking_in_small_steps_changes_nothing(rule: Rule, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawing = linework(np.random.default_rng(seed))
+    before = said(rule, drawing)
+    for module in (boxtree, runtree, duplicates):
+        monkeypatch.setattr(module, "_CHUNK", 64)
+    assert said(rule, drawing) == before
 
 
 def comb(*, mirrored: bool) -> list[NDArray[np.float64]]:

@@ -277,3 +277,16 @@ def test_rule_reports_what_the_reader_found(tmp_path: Path) -> None:
         **nameless(1),
     )
     assert block_bomb(rows).size.tolist() == [1e8]
+
+
+def test_an_insert_that_states_no_place_stands_at_the_origin(tmp_path: Path) -> None:
+    document = new()
+    document.blocks.new("B").add_line((1, 2), (3, 4))
+    for at in ((5, 6), None):
+        reference = document.modelspace().add_blockref("B", at or (0, 0))
+        if at is None:
+            reference.dxf.discard("insert")
+    items = read_back(document, tmp_path).items
+    assert [shapely.get_coordinates(shape).tolist() for shape in items.geometry] == [
+        [[6, 8], [8, 10]], [[1, 2], [3, 4]],
+    ]  # fmt: skip

@@ -41,7 +41,7 @@ def duplicate(lines: Lines, *, coincide: Metres) -> Hits:
     line-overlap.
     """
     group = duplicate_groups(lines.polylines, coincide=coincide)
-    crowded = np.flatnonzero(np.bincount(group, minlength=1)[group] > 1) if len(group) else group
+    crowded = np.flatnonzero(np.bincount(group)[group] > 1)
     row, other = _copies(crowded, group, _kinds(lines, crowded, group), lines.bounds)
     return hits(row, lines.geometry[row], lines.polylines.length_in_space[row], other)
 
