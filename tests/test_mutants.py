@@ -12,6 +12,7 @@ from tests.tools.mutants import by_chance, by_hand, changes, functions
 TEXT = '''
 """A number: 1 < 2."""
 LIMIT: "Annotated[int, 3 < 4]" = 5
+Either = Box | Other
 
 
 class Box:
@@ -53,7 +54,7 @@ def test_offsets_are_those_of_letters_not_of_bytes() -> None:
 
 
 def test_functions_are_told_by_their_lines() -> None:
-    assert list(functions(TEXT)) == [("Box.fits", 9, 13)]
+    assert list(functions(TEXT)) == [("Box.fits", 10, 14)]
 
 
 def test_the_same_seed_gives_the_same_mutants() -> None:

@@ -165,6 +165,11 @@ class _Walker(ast.NodeVisitor):
             self.visit(statement)
         self._names.pop()
 
+    def visit_Assign(self, node: ast.Assign) -> None:
+        """All but names for types, ``Facts = LineFacts | ArcFacts``."""
+        if self._inside or not _is_type(node.value):
+            self.generic_visit(node)
+
     def visit_AnnAssign(self, node: ast.AnnAssign) -> None:
         if node.value:
             self.visit(node.value)
@@ -250,6 +255,13 @@ class _Walker(ast.NodeVisitor):
             start, end = self._span(node.test)
             self._add("negate", start, self.text[start:end], f"not {self.text[start:end]}")
         self.generic_visit(node)
+
+
+def _is_type(node: ast.expr) -> bool:
+    """Whether an expression is a union of classes."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitOr):
+        return _is_type(node.left) and _is_type(node.right)
+    return isinstance(node, ast.Name) and node.id[0].isupper() and not node.id.isupper()
 
 
 def functions(text: str) -> Iterator[tuple[str, int, int]]:
