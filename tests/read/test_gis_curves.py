@@ -150,3 +150,21 @@ def test_chords_are_counted_before_they_are_made(tmp_path: Path) -> None:
 def test_odd_arcs_never_crash(tmp_path: Path, wkb: bytes) -> None:
     items = read(package(tmp_path, wkb, simple(2, [(0, 0), (1, 1)]))).items
     assert items.item[-1] == "paredes:2"
+
+
+@pytest.mark.parametrize(("more", "columns"), [(0, (0, 1)), (1000, (0, 1, 2)), (2000, (0, 1, 3)), (3000, (0, 1, 2, 3))])
+def test_straight_and_bent_pieces_with_depth_measure_or_both(
+    tmp_path: Path, more: int, columns: tuple[int, ...]
+) -> None:
+    def kept(*places: tuple[float, ...]) -> list[tuple[float, ...]]:
+        return [tuple(place[column] for column in columns) for place in places]
+
+    straight = simple(2 + more, kept((0, 0, 5, 70), (2, 0, 6, 80)))
+    bent = simple(8 + more, kept((2, 0, 6, 80), (3, 1, 7, 81), (4, 0, 8, 82)))
+    (line,) = read(package(tmp_path, shape(9 + more, straight, bent), z=2)).items.geometry
+    found = shapely.get_coordinates(line, include_z=2 in columns)
+    for place in [(0, 0, 5), (2, 0, 6), (3, 1, 7), (4, 0, 8)]:
+        assert list(place[: found.shape[1]]) in found.tolist()
+    assert found[0].tolist() == [0, 0, 5][: found.shape[1]]
+    assert found[-1].tolist() == [4, 0, 8][: found.shape[1]]
+    assert line.length == pytest.approx(2 + math.pi, rel=1e-3)
