@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the lettering of dimensions and the extent say of the unit, at their bounds."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from tests.read.drawn import new, read_back
 
 from foparq.check.drawn.unit_evidence import unit_evidence
 from foparq.model.drawing import Dimensions, Drawing, DrawingUnit, Reading, UnitOrigin
-from foparq.model.items import no_items
+from foparq.model.items import Role, no_items
 from foparq.model.plane import plane_of
 
 METRES = DrawingUnit(metres=1.0, name="m", origin=UnitOrigin.STATED)
@@ -130,3 +131,19 @@ def test_a_dimension_alone_in_a_file_names_itself(tmp_path: Path) -> None:
     assert evidence.says[n] == pytest.approx(0.9144 / 2)
     assert (evidence.layer[n], evidence.item[n]) == ("COTAS", raw.items.item[0])
     assert evidence.inserts[n] == raw.items.inserts[0] != ""
+
+
+@pytest.mark.parametrize(("chain", "row"), [("2A", 3), ("2C/2A", 4), ("2B", -1), ("2D/2A", -1)])
+def test_a_statement_is_about_the_dimension_itself_not_about_its_lines(chain: str, row: int) -> None:
+    thing = drawing(["LINESTRING (0 0, 1 0)"] * 5, inserts=["", "2C", "", "", "2C"], layers=["A", "B", "C", "D", "E"])
+    handles = np.array(["2A", "2A", "2B", "2A", "2A"], dtype=object)
+    roles = np.array([Role.LINE, Role.LINE, Role.LINE, Role.ANNOTATION, Role.ANNOTATION], dtype=object)
+    dimensions = Dimensions(
+        measured=np.array([1.0]), text=np.array(["2,00 m"], dtype=object), handle=np.array([chain], dtype=object),
+        where=shapely.points([[0.5, 0.0]]),
+    )  # fmt: skip
+    items = replace(thing.items, handle=handles, role=roles)
+    told = unit_evidence(replace(thing, items=items, reading=Reading(version="AC1027", dimensions=dimensions)))
+    assert (told.row.tolist(), told.says.tolist()) == ([row], [2.0])
+    assert told.layer.tolist() == ["ABCDE"[row] if row >= 0 else ""]
+    assert told.item.tolist() == [thing.items.item[row] if row >= 0 else chain]
