@@ -227,8 +227,7 @@ def _stretches(asked: _Asked, radius: float) -> tuple[Index, Reals, Segments]:
     run = lines.along[vertex]
     head, tail = lines.heads[asked.line], lines.tails[asked.line]
     last = last_not_above(lines.along, vertex, np.maximum(tail, vertex + 1), run + radius)
-    first = last_not_above(lines.along, head, vertex + 1, run - radius)
-    first = np.maximum(first + (lines.along[first] <= run - radius), head + 1)
+    first = last_not_above(lines.along, head, vertex + 1, run - radius) + 1
     count = np.where(asked.forward, last - vertex, vertex - first) + 1
     end, place = ragged(np.zeros(len(vertex), dtype=np.intp), count)
     stride = np.where(asked.forward, 1, -1)
