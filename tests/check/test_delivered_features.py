@@ -369,3 +369,11 @@ def test_counts_are_the_same_in_any_unit(metres: float) -> None:
     counts = count_features([replace(drawing(shapes), unit=unit)], gap=GAP)
     assert counts is not None
     assert counts.count.tolist() == [2]
+
+
+def test_what_is_exactly_as_large_as_the_gap_is_no_feature() -> None:
+    # A quarter of a metre, which binary numbers hold exactly.
+    loose = drawing(["LINESTRING (0 0, 0.25 0)", "LINESTRING (5 0, 5.5 0)"])
+    counts = count_features([loose], gap=0.25)
+    assert counts is not None
+    assert (counts.count.tolist(), counts.most.tolist(), counts.pieces.tolist()) == ([1], [1], [1])
