@@ -16,6 +16,7 @@ import shapely
 from foparq import __version__
 from foparq.check.bounds import Broken, Budget, budget_of
 from foparq.check.drawn.features import count_features
+from foparq.check.drawn.ties import Nearness, tie_evidence
 from foparq.check.run import check_part
 from foparq.check.validate import validate_checks
 from foparq.errors import ManifestError, UnsafeError
@@ -24,6 +25,7 @@ from foparq.evaluate.evidence import Evidence
 from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.table import Severity, join_findings
+from foparq.findings.ties import Ties
 from foparq.model.delivery import Delivery
 from foparq.profile.load import load_manifest, load_profile
 from foparq.profile.schema import Profile
@@ -171,17 +173,19 @@ def _judged(
     checked = [check_part(part, profile, scale, progress, _in_child) for part in delivery.parts]
     outcomes = tuple(outcome for one in checked for outcome in one.outcomes)
     findings = join_findings([one.findings for one in checked])
+    ties, untied = _tied(delivery, profile, scale) if not loose else (None, None)
     gap = profile.completeness.gap.si(scale) if profile.completeness and not loose else None
     counts, broken = (None, None) if gap is None else _counted(delivery, gap, profile)
     traces = (
         *log,
         *(trace for one in checked for trace in one.log),
-        *([broken.trace] if broken and broken.trace else []),
+        *(one.trace for one in (untied, broken) if one and one.trace),
     )
     evidence = Evidence(
         delivery=delivery, outcomes=outcomes, counts=counts, scale=scale,
         uncounted=broken.because if broken else Because.RAN,
-        crashed=bool(log) or (broken is not None and broken.because is Because.CRASHED),
+        crashed=bool(log) or any(one is not None and one.because is Because.CRASHED for one in (untied, broken)),
+        ties=ties,
         faults=int(np.count_nonzero(findings.severity != Severity.NOTE)),
     )  # fmt: skip
     evaluated = evaluate(profile, evidence, loose=loose)
@@ -225,6 +229,21 @@ def _counted(delivery: Delivery, gap: float, profile: Profile) -> tuple[FeatureC
         return None, Broken(Because.LIMIT)
     except Exception:  # noqa: BLE001 - a crash is ours: elements that need the counts are undecided
         return None, Broken(Because.CRASHED, f"counting features\n{traceback.format_exc()}")
+
+
+def _tied(delivery: Delivery, profile: Profile, scale: float | None) -> tuple[Ties | None, Broken | None]:
+    """What of the tables belongs to the drawings, or why the search broke off."""
+    if profile.evidence is None:
+        return None, None
+    near = Nearness(**{name: getattr(profile.evidence, name).si(scale) for name in Nearness._fields})
+    seconds = sum(budget_of(part, profile.limits, 0.0).seconds for part in delivery.parts) or 1.0
+    try:
+        tie = partial(tie_evidence, near=near)
+        return guarded(tie, delivery, file="", seconds=seconds, memory=profile.limits.check_memory), None
+    except UnsafeError:
+        return Ties(broken=Because.LIMIT), Broken(Because.LIMIT)
+    except Exception:  # noqa: BLE001 - a crash is ours: elements that need the ties are undecided
+        return Ties(broken=Because.CRASHED), Broken(Because.CRASHED, f"tying evidence\n{traceback.format_exc()}")
 
 
 def versions() -> dict[str, str]:

@@ -14,6 +14,8 @@ from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import Severity
+from foparq.findings.ties import DistanceTies, Ends, Lies, PointTies, Ties
+from foparq.match.repeats import repeats
 from foparq.model.delivery import Delivery, Source, SourceStatus
 from foparq.model.drawing import Bomb, Drawing, DrawingUnit, Reading, Skipped, UnitOrigin
 from foparq.model.items import Items, Role
@@ -51,10 +53,12 @@ def profile(*elements: ElementSpec) -> Profile:
 
 def judge(
     *elements: ElementSpec, delivery: Delivery, outcomes: Sequence[Outcome] = (), counts: FeatureCounts | None = None,
-    crashed: bool = False, scale: float | None = 50.0,
+    crashed: bool = False, scale: float | None = 50.0, ties: Ties | None = None,
 ) -> QualityReport:  # fmt: skip
     """Evaluate, and make every sentence in both languages: a reason without one is an error."""
-    evidence = Evidence(delivery=delivery, outcomes=outcomes, counts=counts, scale=scale, crashed=crashed)
+    evidence = Evidence(
+        delivery=delivery, outcomes=outcomes, counts=counts, scale=scale, crashed=crashed, ties=ties or tied(delivery)
+    )
     evaluated = evaluate(profile(*elements), evidence)
     assert not evaluated.log
     report = evaluated.quality
@@ -68,6 +72,30 @@ def judge(
             assert all(words.find(f"report.parameter.{name}") for name in names)
             assert len(dict.fromkeys(name for name, _, _ in element.parameters)) == len(element.parameters)
     return report
+
+
+def tied(delivery: Delivery) -> Ties:
+    """Every point lies on a vertex, every distance runs between two of them, none repeats another."""
+    points, lengths = delivery.checkpoints, delivery.distances
+    here = None if points is None else point_ties(points)
+    there = None
+    if lengths is not None:
+        n = len(lengths.id)
+        there = DistanceTies(
+            ends=np.full(n, str(Ends.POINTS), dtype=object), between=lengths.delivered, delivered=lengths.delivered,
+            group=np.arange(n), longest=10.0,
+        )  # fmt: skip
+    return Ties(points=here, distances=there, drawings=1)
+
+
+def point_ties(points: Checkpoints, **changes: Any) -> PointTies:
+    """Every point on a vertex of one drawing, unless changed."""
+    n = len(points.id)
+    same = {name: np.full(n, name, dtype=object) for name in ("drawing", "item", "layer")}
+    return PointTies(**{
+        "lies": np.full(n, str(Lies.VERTEX), dtype=object), "gap": np.zeros(n), **same, "delivered": points.delivered,
+        "group": repeats(points.surveyed, apart=0.001), "unchecked": np.zeros(3, dtype=bool), **changes,
+    })  # fmt: skip
 
 
 def one(element: ElementSpec, **given: Any) -> Element:

@@ -133,16 +133,16 @@ def test_an_upper_bound_at_the_limit_is_told(monkeypatch: pytest.MonkeyPatch) ->
     assert messages(relative(0.125)) == ["relative.pass"]
 
 
-def test_two_points_at_one_place_leave_a_pass_open_and_no_failure() -> None:
+def test_two_points_at_one_place_are_one_with_the_larger_difference() -> None:
     plain = spec("absolute", limit=QUARTER, reference_share=None)
-    for value, status in ((0.125, UNDECIDED), (0.5, FAIL)):
-        table = points(signs(value))
-        table.surveyed[5], table.delivered[5] = table.surveyed[3], table.delivered[3]
-        element = judge(plain, delivery=surveyed(table)).elements[0]
-        assert element.status is status
-        if status is UNDECIDED:
-            said = dict(element.why[0].fields)
-            assert (said["n"], said["total"]) == (1, 8)
+    table = points(signs(0.125))
+    table.surveyed[5], table.delivered[5] = table.surveyed[3], table.surveyed[3] + 0.5
+    element = judge(plain, delivery=surveyed(table)).elements[0]
+    # Six of 0.125 and one of 0.5.
+    assert element.value == pytest.approx(np.sqrt((6 * 0.125**2 + 0.5**2) / 7), abs=1e-12)
+    repeated = next(reason for reason in element.why if reason.message == "evidence.repeated")
+    assert dict(repeated.fields)["ids"] == [table.id[3]]
+    assert element.n == 7
 
 
 # --- Q6 and Q7 -------------------------------------------------------------------------------------------------------

@@ -113,7 +113,7 @@ def test_one_place_measured_seven_times_is_one_checkpoint() -> None:
     )
     for element in judge(Q1, delivery=surveyed(alike)).elements:
         assert element.status is UNDECIDED
-        assert element.why[0].message == "absolute.repeated"
+        assert [reason.message for reason in element.why] == ["absolute.few", "evidence.repeated"]
 
 
 def test_the_limit_is_strict() -> None:

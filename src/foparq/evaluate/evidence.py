@@ -10,9 +10,11 @@ from foparq.evaluate.quality import Element, ElementStatus, Reason, because
 from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.outcome import Outcome
+from foparq.findings.ties import Ties
 from foparq.model.delivery import LOST, Delivery
 from foparq.model.drawing import Drawing, SkippedReason
 from foparq.model.part import Part
+from foparq.model.statements import Confirmation
 from foparq.profile.elements import ElementSpec, LimitedSpec
 
 Parameters = tuple[tuple[str, float, str], ...]
@@ -27,6 +29,7 @@ class Evidence:
     counts: FeatureCounts | None  #: delivered features; ``None`` if they were not counted
     scale: float | None  #: denominator k of 1:k
     uncounted: Because = Because.RAN  #: why the count of features broke off: ``LIMIT`` or ``CRASHED``
+    ties: Ties | None = None  #: what of the tables belongs to the drawings; ``None`` if nobody looked
     faults: int = 0  #: findings that are no notes
     crashed: bool = False  #: something of the program crashed outside the rules
 
@@ -38,6 +41,10 @@ class Evidence:
     def refused(self) -> bool:
         """Whether a file that was named could not be read."""
         return any(source.status in LOST for source in self.delivery.sources)
+
+    def confirmation(self, what: str, value: str) -> Confirmation | None:
+        """What a person confirmed by name, if it is this."""
+        return next((one for one in self.delivery.confirmed if (one.what, one.value) == (what, value)), None)
 
     def lost(self, role: str) -> list[str]:
         """Paths of the files of one role that could not be read."""

@@ -11,6 +11,7 @@ from foparq.accuracy.moments import Moments, moments
 from foparq.columns import Reals
 from foparq.evaluate.evidence import Judgement, Parameters, judged
 from foparq.evaluate.quality import ElementStatus, Reason, because
+from foparq.evaluate.tied import Tied, too_small
 from foparq.profile.elements import ReferencedSpec
 
 
@@ -132,3 +133,25 @@ def _remarks(sample: Sample, found: Moments, spec: ReferencedSpec, limit: float)
         return ()
     confidence = (spec.confidence, "1")
     return (sample.reason("upper", n=found.n, upper=(upper, "m"), limit=(limit, "m"), confidence=confidence),)
+
+
+def with_doubts(judgement: Judgement, tied: Tied, sample: Sample, remarks: tuple[Reason, ...] = ()) -> Judgement:
+    """Judgement of an RMSE in the light of what its table has to do with the drawing.
+
+    Parameters
+    ----------
+    tied : Tied
+        What the sample was made from. Its doubts leave the judgement undecided, whatever the numbers say: they are
+        numbers about something else.
+    remarks : tuple of Reason
+        Further remarks.
+    """
+    good, gross = too_small(sample.known, sample.survey, sample.resolution, sample.id)
+    doubts = (*tied.doubts, *((good,) if good and gross else ()))
+    small = (good,) if good and judgement.status is ElementStatus.PASS and not gross else ()
+    remarks = (*small, *tied.remarks, *remarks)
+    if doubts:
+        # Reasons of a judgement that does not stand would be read as decisive.
+        rest = judgement.why if judgement.status is ElementStatus.UNDECIDED else ()
+        return judged(ElementStatus.UNDECIDED, *doubts, *rest, *remarks)
+    return judged(judgement.status, *judgement.why, *remarks)

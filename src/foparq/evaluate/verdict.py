@@ -3,9 +3,9 @@
 
 from collections.abc import Iterable, Sequence
 
-from foparq.evaluate.elements.absolute import AXES
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
+from foparq.evaluate.tied import AXES
 from foparq.findings.outcome import Status
 from foparq.model.delivery import SourceStatus
 from foparq.model.drawing import Drawing

@@ -6,6 +6,7 @@ from enum import StrEnum
 
 from foparq.model.drawing import Drawing, Skipped
 from foparq.model.part import Part
+from foparq.model.statements import Confirmation
 from foparq.model.tables import Checkpoints, Distances, FeatureList
 
 
@@ -48,6 +49,7 @@ class Delivery:
     checkpoints: Checkpoints | None = None
     distances: Distances | None = None
     features: FeatureList | None = None
+    confirmed: tuple[Confirmation, ...] = ()  #: in the order of the manifest
 
     @property
     def drawings(self) -> tuple[Drawing, ...]:

@@ -1,9 +1,23 @@
 # SPDX-License-Identifier: MIT
 """Delivered tables: checkpoints, distances and the specified features, as columns."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+import numpy as np
 
 from foparq.columns import Flags, Index, Reals, Texts
+
+
+def _exact() -> Reals:
+    return np.zeros(3)
+
+
+def _nameless() -> Texts:
+    return np.empty(0, dtype=object)
+
+
+def _placeless() -> Reals:
+    return np.empty((0, 2, 3))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -15,6 +29,7 @@ class Checkpoints:
     delivered: Reals  #: (n, 3) X, Y, Z; NaN where not delivered
     resolution: Reals  #: (3,) half the last printed digit of surveyed plus delivered, per axis, metres
     survey_sd: float | None  #: standard deviation of the survey, metres; ``None`` if not stated
+    printed: Reals = field(default_factory=_exact)  #: (3,) half the last printed digit of delivered alone, metres
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,6 +41,20 @@ class Distances:
     delivered: Reals  #: (n,) in the delivery; NaN where not delivered
     resolution: float  #: half the last printed digit of measured plus delivered, metres
     survey_sd: float | None  #: standard deviation of the survey, metres; ``None`` if not stated
+    start: Texts = field(default_factory=_nameless)  #: (n,) name of the first end, ``""`` if none; left out: none
+    end: Texts = field(default_factory=_nameless)  #: (n,) of the second
+    places: Reals = field(default_factory=_placeless)  #: (n, 2, 3) delivered coordinates of both, metres; NaN if none
+    printed: float = 0.0  #: half the last printed digit of delivered alone, metres
+
+    def __post_init__(self) -> None:
+        n = len(self.id)
+        for name, missing in (
+            ("start", np.full(n, "", dtype=object)),
+            ("end", np.full(n, "", dtype=object)),
+            ("places", np.full((n, 2, 3), np.nan)),
+        ):
+            if len(getattr(self, name)) != n:
+                object.__setattr__(self, name, missing)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

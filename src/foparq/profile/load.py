@@ -26,6 +26,7 @@ _TOP_KEYS = {
     "scale",
     "reading",
     "completeness",
+    "evidence",
     "limits",
     "check",
     "element",
@@ -33,6 +34,7 @@ _TOP_KEYS = {
 #: a right example for a key, shown when its value is wrong
 _EXAMPLES = {
     "drawing": "[[drawing]]",
+    "apart": 'apart = "1 mm @ scale"',
     "areas": 'areas = ["REVESTIMENTO"]',
     "blocks": 'blocks = "explode"',
     "classes": 'classes = { "PORTA*" = "door" }',
@@ -40,6 +42,8 @@ _EXAMPLES = {
     "facade": 'facade = "N"',
     "gap": 'gap = "0.2 mm @ scale"',
     "hidden": 'hidden = "leave"',
+    "by": 'by = "name and office"',
+    "confirmed": "[[confirmed]]",
     "kind": 'kind = "omission"',
     "language": 'language = "pt-BR"',
     "layers": 'layers = ["PAREDE*"]',
@@ -49,14 +53,20 @@ _EXAMPLES = {
     "plane": 'plane = "xz"',
     "product_class": 'product_class = "A"',
     "profile": 'profile = "et-doc-foparq-a"',
+    "reason": 'reason = "why it is right all the same"',
     "required": "required = true",
     "rule": 'rule = "undershoot"',
+    "search": 'search = "1 mm @ scale"',
     "sagitta": 'sagitta = "0.001 mm @ scale"',
     "scale": 'scale = "1:50"',
     "severity": 'severity = "major"',
     "survey_sd": 'survey_sd = "3 mm"',
+    "tie": 'tie = "0.02 mm @ scale"',
     "title": 'title = "Estação"',
     "unit": 'unit = "m"',
+    "value": 'value = "mm"',
+    "visible": 'visible = "0.2 mm @ scale"',
+    "what": 'what = "unit"',
 }
 
 _SHOWN = 80  #: letters of a wrong value that a message repeats

@@ -62,6 +62,25 @@ class SurveySection(TableSection):
     unit: UnitName = "m"
 
 
+def _said(text: object) -> str:
+    if not isinstance(text, str) or not text.strip():
+        raise ValueError("a name or a sentence")
+    return text.strip()
+
+
+Said = Annotated[str, BeforeValidator(_said)]
+
+
+class ConfirmedSection(Strict):
+    """``[[confirmed]]``: a statement that witnesses contradict, confirmed by a person."""
+
+    what: Literal["unit", "plane", "scale", "crs", "checkpoints", "distances"]
+    value: Said  #: what is confirmed; of ``checkpoints`` and ``distances``: ``"not drawn"``
+    by: Said  #: who answers for it
+    reason: Said
+    path: str = ""  #: file it speaks of; left out: every file that states the value
+
+
 class Manifest(Strict):
     """A delivery manifest."""
 
@@ -70,6 +89,7 @@ class Manifest(Strict):
     features: TableSection | None = None
     checkpoints: SurveySection | None = None
     distances: SurveySection | None = None
+    confirmed: tuple[ConfirmedSection, ...] = ()
     record: Mapping[str, Any] | None = None  #: descriptive record: kept, not assessed yet
     metadata: Mapping[str, Any] | None = None  #: kept, not assessed yet
     capture: Mapping[str, Any] | None = None  #: kept, not assessed yet

@@ -50,6 +50,15 @@ class CompletenessSpec(Strict):
     gap: Length  #: linework of one class nearer than this belongs to one feature
 
 
+class EvidenceSpec(Strict):
+    """How tables of evidence are tied to the drawings: ``[evidence]``."""
+
+    tie: Length  #: a delivered point not farther from linework lies on it; printed digits are added
+    apart: Length  #: checkpoints not farther apart stand for one place
+    search: Length  #: radius in which the only vertex is taken for a checkpoint without delivered coordinates
+    visible: Length  #: what is shorter cannot be measured at the scale of the drawing
+
+
 class ReadingSpec(Strict):
     """How drawings are taken in: ``[reading]``."""
 
@@ -71,6 +80,7 @@ class Profile(Strict):
     scale: str | None = None
     reading: ReadingSpec
     completeness: CompletenessSpec | None = None
+    evidence: EvidenceSpec | None = None  #: left out: nothing can be tied, and no table shows anything
     limits: LimitsSpec = LimitsSpec()
     checks: tuple[CheckSpec, ...]
     elements: tuple[ElementSpec, ...] = ()

@@ -5,16 +5,14 @@ import math
 
 import numpy as np
 
-from foparq.accuracy.differences import differences
 from foparq.accuracy.moments import moments
+from foparq.columns import Reals
 from foparq.evaluate.evidence import Evidence, element, judged, limit_of
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
-from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters
-from foparq.model.tables import Checkpoints
+from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters, with_doubts
+from foparq.evaluate.tied import AXES, tied_points, unchecked
 from foparq.profile.elements import AbsoluteSpec
-
-AXES = ("X", "Y", "Z")
 
 
 @evaluates(AbsoluteSpec, measure="39")
@@ -24,8 +22,8 @@ def absolute(spec: AbsoluteSpec, evidence: Evidence) -> tuple[Element, ...]:
     Returns
     -------
     tuple of Element
-        ``Q1-X``, ``Q1-Y``, ``Q1-Z``. See :func:`foparq.evaluate.threshold.judge_rmse` for the order of decisions; what
-        would pass stays undecided if several points stand at one place.
+        ``Q1-X``, ``Q1-Y``, ``Q1-Z``. Points that are not in the drawing, or repeat the survey too well, leave it
+        undecided; else :func:`foparq.evaluate.threshold.judge_rmse` has the order of decisions.
     """
     return tuple(_axis(spec, evidence, axis) for axis in range(len(AXES)))
 
@@ -40,28 +38,22 @@ def _axis(spec: AbsoluteSpec, evidence: Evidence, axis: int) -> Element:
             spec, "39", judged(ElementStatus.NOT_ASSESSED, case), id=id_, scope=scope, limit=limit, comparison="<",
             method="directExternal",
         )  # fmt: skip
+    tied = tied_points(points, evidence, id_)
+    resolution = float(points.resolution[axis])
     sample = Sample(
-        kind="absolute", id=id_, all=differences(points.delivered[:, axis], points.surveyed[:, axis]),
-        resolution=float(points.resolution[axis]), survey_sd=points.survey_sd,
-    )  # fmt: skip
+        kind="absolute", id=id_, all=tied.differences[:, axis], resolution=resolution, survey_sd=points.survey_sd
+    )
     judgement = judged(ElementStatus.UNDECIDED, no_limit) if no_limit else judge_rmse(sample, spec, limit or 0.0)
-    if judgement.status is ElementStatus.PASS and (repeated := _repeated(points)):
-        case = because("absolute.repeated", element=id_, n=repeated, total=len(points.id))
-        judgement = judged(ElementStatus.UNDECIDED, case)
+    judgement = with_doubts(judgement, tied, sample, unchecked(evidence, axis, id_))
     found = moments(sample.known)
     return element(
         spec, "39", judgement, id=id_, scope=scope, n=found.n, value=found.rmse, limit=limit, comparison="<",
-        parameters=(*rmse_parameters(sample, spec), ("rmse-xyz", _in_space(points), "m")), method="directExternal",
+        parameters=(*rmse_parameters(sample, spec), ("rmse-xyz", _in_space(tied.differences), "m")),
+        method="directExternal",
     )  # fmt: skip
 
 
-def _repeated(points: Checkpoints) -> int:
-    """Points at a place that another point already stands for: one place measured twice is one checkpoint."""
-    return len(points.id) - len(np.unique(points.surveyed, axis=0))
-
-
-def _in_space(points: Checkpoints) -> float:
+def _in_space(every: Reals) -> float:
     """RMSE of the points that have all three coordinates: ``sqrt(RMSE_X^2 + RMSE_Y^2 + RMSE_Z^2)``; NaN if none has."""
-    every = differences(points.delivered, points.surveyed)
     whole = every[np.isfinite(every).all(axis=1)]
     return math.hypot(*(moments(whole[:, axis]).rmse for axis in range(3))) if len(whole) else math.nan

@@ -3,12 +3,12 @@
 
 import numpy as np
 
-from foparq.accuracy.differences import differences
 from foparq.accuracy.moments import moments
 from foparq.accuracy.normality import anderson_darling
 from foparq.evaluate.evidence import Evidence, Judgement, Parameters, element, judged
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
+from foparq.evaluate.tied import tied_distances
 from foparq.profile.elements import NormalitySpec
 
 _MEASURE = "foparq:normality"
@@ -29,7 +29,8 @@ def normality(spec: NormalitySpec, evidence: Evidence) -> tuple[Element, ...]:
         case = because("relative.lost" if evidence.lost("distances") else "relative.none", element=spec.id)
         judgement = judged(ElementStatus.NOT_ASSESSED, case)
         return (element(spec, _MEASURE, judgement, scope=scope, limit=limit, comparison=">", method="directExternal"),)
-    every = differences(distances.delivered, distances.measured)
+    tied = tied_distances(distances, evidence, spec.id)
+    every = tied.differences
     known = every[np.isfinite(every)]
     found = moments(known)
     value: float | None = None
@@ -44,6 +45,8 @@ def normality(spec: NormalitySpec, evidence: Evidence) -> tuple[Element, ...]:
         value = test.p
         parameters = (*parameters, ("a2", test.a2, ""), ("a2-star", test.a2_star, ""), ("p", test.p, ""))
         judgement = _judge(spec.id, found.n, len(every), test.p, limit)
+        if tied.doubts:
+            judgement = judged(ElementStatus.UNDECIDED, *tied.doubts)
     made = element(
         spec, _MEASURE, judgement, scope=scope, n=found.n, value=value, limit=limit, comparison=">",
         parameters=parameters, method="directExternal",

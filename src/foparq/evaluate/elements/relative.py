@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Relative positional accuracy: RMSE of delivered minus measured distances."""
 
-from foparq.accuracy.differences import differences
 from foparq.accuracy.moments import moments
 from foparq.evaluate.evidence import Evidence, element, judged, limit_of
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
-from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters
+from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters, with_doubts
+from foparq.evaluate.tied import tied_distances
 from foparq.profile.elements import RelativeSpec
 
 _MEASURE = "foparq:distance-rmse"
@@ -19,7 +19,8 @@ def relative(spec: RelativeSpec, evidence: Evidence) -> tuple[Element, ...]:
     Returns
     -------
     tuple of one Element
-        See :func:`foparq.evaluate.threshold.judge_rmse` for the order of decisions.
+        Distances that do not belong to the drawing leave it undecided; else
+        :func:`foparq.evaluate.threshold.judge_rmse` has the order of decisions.
     """
     distances = evidence.delivery.distances
     scope = evidence.files("distances")
@@ -28,11 +29,13 @@ def relative(spec: RelativeSpec, evidence: Evidence) -> tuple[Element, ...]:
         case = because("relative.lost" if evidence.lost("distances") else "relative.none", element=spec.id)
         judgement = judged(ElementStatus.NOT_ASSESSED, case)
         return (element(spec, _MEASURE, judgement, scope=scope, limit=limit, comparison="<", method="directExternal"),)
+    tied = tied_distances(distances, evidence, spec.id)
     sample = Sample(
-        kind="relative", id=spec.id, all=differences(distances.delivered, distances.measured),
-        resolution=distances.resolution, survey_sd=distances.survey_sd,
+        kind="relative", id=spec.id, all=tied.differences, resolution=distances.resolution,
+        survey_sd=distances.survey_sd,
     )  # fmt: skip
     judgement = judged(ElementStatus.UNDECIDED, no_limit) if no_limit else judge_rmse(sample, spec, limit or 0.0)
+    judgement = with_doubts(judgement, tied, sample)
     found = moments(sample.known)
     made = element(
         spec, _MEASURE, judgement, scope=scope, n=found.n, value=found.rmse, limit=limit, comparison="<",

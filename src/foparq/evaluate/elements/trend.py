@@ -5,15 +5,14 @@ import math
 
 import numpy as np
 
-from foparq.accuracy.differences import differences
 from foparq.accuracy.moments import Moments, moments
 from foparq.accuracy.normality import anderson_darling
 from foparq.accuracy.student import StudentTest, sign_test, student_test
 from foparq.columns import Reals
-from foparq.evaluate.elements.absolute import AXES
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
+from foparq.evaluate.tied import AXES, tied_points
 from foparq.model.tables import Checkpoints
 from foparq.profile.elements import TrendSpec
 
@@ -43,23 +42,27 @@ def trend(spec: TrendSpec, evidence: Evidence) -> tuple[Element, ...]:
             )
             for id_ in ids
         )  # fmt: skip
-    return tuple(_axis(spec, points, scope, axis) for axis in range(len(AXES)))
+    return tuple(_axis(spec, points, evidence, axis) for axis in range(len(AXES)))
 
 
-def _axis(spec: TrendSpec, points: Checkpoints, scope: str, axis: int) -> Element:
-    id_ = f"{spec.id}-{AXES[axis]}"
-    every = differences(points.delivered[:, axis], points.surveyed[:, axis])
+def _axis(spec: TrendSpec, points: Checkpoints, evidence: Evidence, axis: int) -> Element:
+    id_, scope = f"{spec.id}-{AXES[axis]}", evidence.files("checkpoints")
+    tied = tied_points(points, evidence, id_)
+    every = tied.differences[:, axis]
     known = every[np.isfinite(every)]
     found = moments(known)
     fewest = max(spec.fewest, _FEWEST)
     if found.n < fewest:
-        judgement = judged(ElementStatus.UNDECIDED, because("absolute.few", element=id_, n=found.n, fewest=fewest))
+        few = because("absolute.few", element=id_, n=found.n, fewest=fewest)
+        judgement = judged(ElementStatus.UNDECIDED, *tied.doubts, few)
         return element(
             spec, _MEASURE, judgement, id=id_, scope=scope, n=found.n, comparison="<=", method="directExternal",
             parameters=(("mean", found.mean, "m"), ("sd", found.sd, "m"), ("n", float(found.n), "items")),
         )  # fmt: skip
     test = student_test(known, confidence=spec.confidence)
     judgement = _judge(id_, test, found, len(every), float(points.resolution[axis]))
+    if tied.doubts:
+        judgement = judged(ElementStatus.UNDECIDED, *tied.doubts)
     remarks, extra = _normality(id_, known, spec.confidence)
     parameters = (
         ("mean", found.mean, "m"), ("sd", found.sd, "m"), ("n", float(found.n), "items"),

@@ -46,7 +46,9 @@ DISTANCE_COLUMNS: Mapping[str, Sequence[str]] = {
     "to": ("para", "até", "end", "fim", "ao ponto", "point b", "ponto b"),
     "measured": ("medida", "medido", "trena", "tape", "referência", "reference", "campo"),
     "delivered": ("entregue", "desenho", "drawing", "restituída", "restituído"),
+    **{f"{axis}{end}": (f"{axis} {name}",) for end, name in ((1, "de"), (2, "para")) for axis in "xyz"},
 }
+_END_COLUMNS = tuple(f"{axis}{end}" for end in (1, 2) for axis in "xyz")
 FEATURE_COLUMNS: Mapping[str, Sequence[str]] = {
     "id": (*_ID, "feição", "feature"),
     "class": ("classe", "feature class", "tipo", "categoria"),
@@ -104,6 +106,7 @@ def read_checkpoints(path: Path, section: SurveySection) -> Checkpoints:
         delivered=np.column_stack([values for values, _ in delivered]),
         resolution=np.array(halves),
         survey_sd=section.survey_sd.si() if section.survey_sd else None,
+        printed=np.array([other for _, other in delivered]),
     )
 
 
@@ -120,8 +123,8 @@ def read_distances(path: Path, section: SurveySection) -> Distances:
     Returns
     -------
     Distances
-        In metres, in the order of the file. ``delivered`` may be empty: NaN. ``from`` and ``to`` name the ends for the
-        reader's own use.
+        In metres, in the order of the file. ``delivered`` may be empty: NaN. ``from`` and ``to`` name the ends;
+        ``x1, y1, z1, x2, y2, z2`` are their delivered coordinates, a depth may be left out.
 
     Raises
     ------
@@ -129,18 +132,20 @@ def read_distances(path: Path, section: SurveySection) -> Distances:
         If a cell, a row or a column is wrong, or a length is not positive.
     """
     sheet = read_sheet(path, known=DISTANCE_COLUMNS, required=("id", "measured"), example=_DISTANCE_LINE)
-    unit = _unit(sheet, section, ("measured", "delivered"))
+    unit = _unit(sheet, section, ("measured", "delivered", *_END_COLUMNS))
     ids = _ids(sheet, example="D01")
     measured, half = _numbers(sheet, "measured", unit, required=True)
     delivered, other = _numbers(sheet, "delivered", unit, required=False)
-    _one_decimal_sign(sheet, ("measured", "delivered"))
+    places = [_numbers(sheet, column, unit, required=False)[0] for column in _END_COLUMNS]
+    _one_decimal_sign(sheet, ("measured", "delivered", *_END_COLUMNS))
     for column, values in (("measured", measured), ("delivered", delivered)):
         wrong = np.flatnonzero(values <= 0)
         if len(wrong):
             raise sheet.fault("table.not-positive", int(wrong[0]), column, example="2.345")
     return Distances(
         id=ids, measured=measured, delivered=delivered, resolution=half + other,
-        survey_sd=section.survey_sd.si() if section.survey_sd else None,
+        survey_sd=section.survey_sd.si() if section.survey_sd else None, start=_column(sheet.texts("from")),
+        end=_column(sheet.texts("to")), places=np.stack(places, axis=1).reshape(-1, 2, 3), printed=other,
     )  # fmt: skip
 
 

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: MIT
+"""Linework of a drawing as places of tables are held against it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from foparq.check.drawn.columns import Columns
+from foparq.columns import Coordinates, Flags, Geometries, Reals, Texts
+from foparq.match.linework import Footing, Linework, footing, stands_in_space
+from foparq.model.drawing import Drawing
+from foparq.model.inputs import Lines
+from foparq.model.items import Role
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """Linework of one drawing; sheet coordinates, metres."""
+
+    drawing: Drawing
+    work: Linework  #: m lines, boundaries and points
+    item: Texts  #: (m,)
+    layer: Texts  #: (m,)
+    deep: bool  #: it stands in space: depths are compared
+
+    @property
+    def metres(self) -> float:
+        """Metres in one drawing unit."""
+        return self.drawing.unit.metres or 1.0
+
+    @property
+    def depth_axis(self) -> int:
+        """Axis of the file that runs along the depth."""
+        return int(np.argmax(np.abs(self.drawing.plane.frame[2])))
+
+    def on_sheet(self, places: Coordinates) -> Coordinates:
+        """Places (n, 3) in metres, in the axes of the file, brought to the sheet.
+
+        The depth that a flat drawing does not have may be missing.
+        """
+        if not self.deep:
+            places = places.copy()
+            places[:, self.depth_axis] = np.nan_to_num(places[:, self.depth_axis])
+        return self.drawing.plane.project(places / self.metres, self.metres)
+
+    def in_file(self, sheet: Coordinates) -> Coordinates:
+        """Sheet coordinates (n, 3) in the axes of the file, metres; a depth that the drawing does not have is NaN."""
+        places: Coordinates = self.drawing.plane.lift(sheet, self.metres) * self.metres
+        if not self.deep:
+            places[:, self.depth_axis] = np.nan
+        return places
+
+    def footing(self, places: Coordinates, within: Reals) -> Footing:
+        """Linework on which places (n, 3) in metres, in the axes of the file, lie."""
+        return footing(self.on_sheet(places), self.work, within=within, deep=self.deep)
+
+    def corners(self) -> Coordinates:
+        """(v, 3) vertices on the sheet."""
+        corners = shapely.get_coordinates(self.work.lines, include_z=True)
+        finite: Coordinates = np.nan_to_num(corners[np.isfinite(corners[:, :2]).all(axis=1)])
+        return finite
+
+    def longest(self) -> float:
+        """Length of the longest line that fits into the box of the drawing."""
+        corners = self.corners()
+        return float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 0.0
+
+
+def ground_of(drawing: Drawing) -> Ground | None:
+    """What places are held against; ``None`` if nobody knows the unit of the drawing, or nothing is drawn."""
+    if drawing.unit.metres is None:
+        return None
+    columns = Columns(drawing, hidden=False)
+    lines = columns.build(Lines, np.arange(len(columns.rows)))
+    assert isinstance(lines, Lines)  # noqa: S101 - what was asked for
+    point = np.flatnonzero((columns.role == Role.POINT) & _placed(columns.geometry))
+    at = columns.rows[point]
+    geometry: Geometries = np.concatenate([lines.geometry, columns.geometry[point]])
+    if not len(geometry):
+        return None
+    return Ground(
+        drawing=drawing, work=Linework.of(geometry), item=np.concatenate([lines.item, drawing.items.item[at]]),
+        layer=np.concatenate([lines.layer, drawing.items.layer[at]]), deep=stands_in_space(geometry),
+    )  # fmt: skip
+
+
+def _placed(geometry: Geometries) -> Flags:
+    """(n,) whether a point has a place."""
+    there: Flags = ~(shapely.is_missing(geometry) | shapely.is_empty(geometry))
+    there[there] = np.isfinite(shapely.bounds(geometry[there])).all(axis=1)
+    return there

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: MIT
+"""Whether checkpoints and distances belong to the drawings that were delivered with them.
+
+A table may be sound in itself and speak of another building. Delivered coordinates count where the drawing has
+something to show for them: a vertex or linework, in the axes that the drawing has.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from foparq.check.drawn.distance_ties import tie_distances
+from foparq.check.drawn.ground import Ground, ground_of
+from foparq.columns import Coordinates, Flags, Reals
+from foparq.findings.ties import Lies, PointTies, Ties
+from foparq.match.causes import Cause, by_axes_or_unit, by_place_or_size
+from foparq.match.linework import NOTHING, footing
+from foparq.match.repeats import repeats
+from foparq.model.delivery import Delivery
+from foparq.model.tables import Checkpoints
+from foparq.units import LENGTHS
+
+_UNITS = ("m", "mm", "cm", "in", "ft", "km")
+#: factors that a table in another unit is off by
+_FACTORS = tuple(sorted({LENGTHS[a] / LENGTHS[b] for a in _UNITS for b in _UNITS if a != b}))
+
+
+class Nearness(NamedTuple):
+    """Lengths of the profile, metres."""
+
+    tie: float  #: a point not farther from linework lies on it
+    apart: float  #: points not farther apart stand for one place
+    search: float  #: around a surveyed place, for its only vertex
+    visible: float  #: what is shorter cannot be measured in the drawing
+
+
+def tie_evidence(delivery: Delivery, near: Nearness) -> Ties:
+    """Hold the tables of a delivery against its drawings.
+
+    Parameters
+    ----------
+    near : Nearness
+        Of the profile.
+
+    Returns
+    -------
+    Ties
+        Without drawings of a known unit nothing is tied.
+    """
+    grounds = [ground for drawing in delivery.drawings if (ground := ground_of(drawing)) is not None]
+    if not grounds:
+        return Ties()
+    points, distances = None, None
+    if delivery.checkpoints is not None and len(delivery.checkpoints.id):
+        points = tie_points(delivery.checkpoints, grounds, near)
+    if delivery.distances is not None and len(delivery.distances.id):
+        distances = tie_distances(
+            delivery.distances, delivery.checkpoints, points, grounds, tie=near.tie, visible=near.visible
+        )
+    return Ties(points=points, distances=distances, drawings=len(grounds))
+
+
+def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -> PointTies:
+    """Checkpoints held against drawings.
+
+    A delivered point lies in a drawing if linework is not farther than ``near.tie`` and half the last printed digit of
+    its coordinates, in the axes that the drawing has: a drawing that does not stand in space says nothing of depths.
+    Without delivered coordinates the only vertex within ``near.search`` of the surveyed place is taken for the point.
+
+    Parameters
+    ----------
+    points : Checkpoints, n rows
+    grounds : sequence of Ground
+        One at least.
+
+    Returns
+    -------
+    PointTies, n rows
+        Of several drawings the nearest counts. If more than half of the points are absent, the cause that would put
+        all of them on one drawing.
+    """
+    n = len(points.id)
+    lies, gap = np.full(n, str(Lies.ABSENT), dtype=object), np.full(n, np.inf)
+    names = {name: np.full(n, "", dtype=object) for name in ("drawing", "item", "layer")}
+    delivered, compared = points.delivered.copy(), np.zeros((n, 3), dtype=bool)
+    untold = np.isnan(points.delivered).all(axis=1)
+    within = np.full(n, near.tie + float(np.linalg.norm(points.printed)))
+    for ground in grounds:
+        absent, places = lies == Lies.ABSENT, points.delivered.copy()
+        places[untold & absent] = _only_vertices(ground, points.surveyed[untold & absent], near.search)
+        found = ground.footing(places, within)
+        on = (found.line != NOTHING) & (found.distance < np.where(absent, np.inf, gap))
+        gap = np.where(on | absent, np.minimum(gap, found.distance), gap)
+        lies[on] = np.where(found.vertex[on] <= within[on], str(Lies.VERTEX), str(Lies.LINEWORK))
+        lies[on & untold] = str(Lies.TAKEN_VERTEX)
+        delivered[on & untold] = places[on & untold]
+        names["drawing"][on] = ground.drawing.path
+        names["item"][on], names["layer"][on] = ground.item[found.line[on]], ground.layer[found.line[on]]
+        compared[on] = True
+        compared[on, ground.depth_axis] = ground.deep
+    absent = lies == Lies.ABSENT
+    lies[absent & untold] = str(Lies.UNTOLD)
+    cause, drawing = _cause(points.delivered, absent & ~untold, grounds, within)
+    return PointTies(
+        lies=lies, gap=gap, **names, delivered=delivered, group=repeats(points.surveyed, apart=near.apart),
+        unchecked=~compared.any(axis=0), cause=cause, near=drawing,
+    )  # fmt: skip
+
+
+def _only_vertices(ground: Ground, surveyed: Coordinates, radius: float) -> Coordinates:
+    """Vertices (k, 3) near surveyed places (k, 3), in the axes of the file; NaN where there is none, or several."""
+    taken = np.full(surveyed.shape, np.nan)
+    if not len(surveyed):
+        return taken
+    from scipy.spatial import cKDTree  # noqa: PLC0415 - slow to load; delivered coordinates need none
+
+    axes = 3 if ground.deep else 2
+    corners = np.unique(ground.corners(), axis=0)
+    near = cKDTree(corners[:, :axes]).query_ball_point(ground.on_sheet(surveyed)[:, :axes], radius)
+    for row, rows in enumerate(near):
+        # Ends of several lines at one corner are one vertex.
+        if rows and np.ptp(corners[rows][:, :axes], axis=0).max() <= radius * _ONE_VERTEX:
+            taken[row] = ground.in_file(corners[rows[:1]])[0]
+    return taken
+
+
+_ONE_VERTEX = 0.01  #: share of the radius of search in which ends of lines are one corner
+
+
+def _cause(delivered: Coordinates, absent: Flags, grounds: Sequence[Ground], within: Reals) -> tuple[Cause | None, str]:
+    """One cause that explains why most points are absent, and the drawing on which all would lie."""
+    told = np.isfinite(delivered).all(axis=1)
+    if 2 * np.count_nonzero(absent & told) <= np.count_nonzero(told):
+        return None, ""
+    places, reach = delivered[told], within[told]
+    for ground in grounds:
+        cause = _cause_on(ground, places, reach)
+        if cause is not None:
+            return cause, ground.drawing.path
+    return None, ""
+
+
+def _cause_on(ground: Ground, places: Coordinates, within: Reals) -> Cause | None:
+    def in_file(moved: Coordinates) -> Flags:
+        return on_sheet(ground.on_sheet(moved))
+
+    def on_sheet(moved: Coordinates) -> Flags:
+        lies: Flags = footing(moved, ground.work, within=within, deep=ground.deep).line != NOTHING
+        return lies
+
+    step = float(within.max())
+    return by_axes_or_unit(places, _FACTORS, in_file) or by_place_or_size(
+        ground.on_sheet(places), ground.corners(), within=step, holds=on_sheet
+    )

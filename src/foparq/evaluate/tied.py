@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: MIT
+"""Differences of the tables as far as the drawings bear them out."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from foparq.accuracy.differences import differences
+from foparq.accuracy.too_good import too_good
+from foparq.columns import Flags, Index, Reals, Texts
+from foparq.evaluate.evidence import Evidence
+from foparq.evaluate.quality import Reason, because
+from foparq.findings.because import Because
+from foparq.findings.ties import DistanceTies, Ends, Lies, PointTies
+from foparq.match.causes import Cause
+from foparq.model.tables import Checkpoints, Distances
+
+AXES = ("X", "Y", "Z")
+_SHOWN = 10  #: ids that a reason names
+_REMARKED = 0.01  #: probability below which differences that are too small are told
+_GROSS = 1e-5  #: and below which nothing is accepted on them
+_BROKEN_OFF = {Because.LIMIT: "evidence.limit", Because.CRASHED: "evidence.crashed"}
+NOT_DRAWN = "not drawn"  #: confirmed: measured in the stereo model
+
+
+class Tied(NamedTuple):
+    """Differences of one table, delivered minus reference, one row a measurement."""
+
+    rows: Index  #: (m,) rows of the table
+    differences: Reals  #: (m,) or (m, 3) metres, NaN where nothing was delivered
+    doubts: tuple[Reason, ...]  #: why nothing can be accepted or rejected on them
+    remarks: tuple[Reason, ...]  #: what is to be said beside them
+
+
+def tied_points(points: Checkpoints, evidence: Evidence, name: str) -> Tied:
+    """Differences (m, 3) of the checkpoints.
+
+    Points that stand for one place count once, with the largest difference among them.
+
+    Parameters
+    ----------
+    name : str
+        Id of the element, for the reasons.
+    """
+    ties = evidence.ties.points if evidence.ties else None
+    if ties is None:
+        every = differences(points.delivered, points.surveyed)
+        return Tied(np.arange(len(points.id)), every, _untied(evidence, name), ())
+    every = differences(ties.delivered, points.surveyed)
+    rows = _worst(ties.group, np.nansum(every**2, axis=1))
+    repeated = np.setdiff1d(np.arange(len(points.id)), rows)
+    remarks = []
+    if len(repeated):
+        remarks.append(_naming("evidence.repeated", name, points.id[repeated], kept=len(rows)))
+    taken = np.isin(ties.lies, [Lies.TAKEN_VERTEX, Lies.TAKEN_NAMED])
+    if taken.any():
+        remarks.append(_naming("evidence.taken", name, points.id[taken]))
+    if (confirmed := evidence.confirmation("checkpoints", NOT_DRAWN)) is not None:
+        absent = np.flatnonzero(ties.lies == Lies.ABSENT)
+        if len(absent):
+            remarks.append(_naming("evidence.absent-confirmed", name, points.id[absent], by=confirmed.by))
+        return Tied(rows, every[rows], (), tuple(remarks))
+    return Tied(rows, every[rows], _absent(points, ties, name), tuple(remarks))
+
+
+def tied_distances(distances: Distances, evidence: Evidence, name: str) -> Tied:
+    """Differences (m,) of the distances; rows that repeat one measurement count once, with the largest difference."""
+    ties = evidence.ties.distances if evidence.ties else None
+    if ties is None:
+        every = differences(distances.delivered, distances.measured)
+        return Tied(np.arange(len(distances.id)), every, _untied(evidence, name), ())
+    every = differences(ties.delivered, distances.measured)
+    rows = _worst(ties.group, np.nan_to_num(every**2))
+    repeated = np.setdiff1d(np.arange(len(distances.id)), rows)
+    remarks = []
+    if len(repeated):
+        remarks.append(_naming("evidence.repeated-distances", name, distances.id[repeated], kept=len(rows)))
+    names = ties.ends == Ends.NAMES
+    if names.any():
+        remarks.append(because("evidence.names-only", element=name, n=int(names.sum()), total=len(distances.id)))
+    if (confirmed := evidence.confirmation("distances", NOT_DRAWN)) is not None:
+        remarks.append(because("evidence.distances-confirmed", element=name, by=confirmed.by))
+        return Tied(rows, every[rows], (), tuple(remarks))
+    return Tied(rows, every[rows], _not_of_drawing(distances, ties, name), tuple(remarks))
+
+
+def too_small(found: Reals, survey_sd: float | None, resolution: float, name: str) -> tuple[Reason | None, bool]:
+    """Whether differences are smaller than the survey lets them be, and whether grossly.
+
+    Parameters
+    ----------
+    found : (n,) metres
+        Differences that are numbers.
+    survey_sd : float or None, metres
+        As stated.
+    resolution : float, metres
+        Half the last printed digits of both.
+    """
+    if survey_sd is None or not survey_sd > 0.0 or not len(found):
+        return None, False
+    p = too_good(found, survey_sd, resolution)
+    if not p < _REMARKED:
+        return None, False
+    gross = p < _GROSS
+    fields = {"n": len(found), "survey": (survey_sd, "m"), "p": (_GROSS if gross else _REMARKED, "1")}
+    return because("evidence.too-good" if gross else "evidence.good", element=name, **fields), gross
+
+
+def unchecked(evidence: Evidence, axis: int, name: str) -> tuple[Reason, ...]:
+    """Remark that a flat drawing says nothing of an axis."""
+    ties = evidence.ties.points if evidence.ties else None
+    if ties is None or not ties.unchecked[axis] or ties.unchecked.all():
+        return ()
+    return (because("evidence.flat", element=name),)
+
+
+def _untied(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    if evidence.ties is None:
+        return (because("evidence.unlooked", element=name),)
+    if evidence.ties.broken in _BROKEN_OFF:
+        return (because(_BROKEN_OFF[evidence.ties.broken], element=name),)
+    return (because("evidence.no-drawing", element=name),)
+
+
+def _absent(points: Checkpoints, ties: PointTies, name: str) -> tuple[Reason, ...]:
+    absent = ties.lies == Lies.ABSENT
+    if not absent.any():
+        return ()
+    gaps = ties.gap[absent & np.isfinite(ties.gap)]
+    least, most = (float(gaps.min()), float(gaps.max())) if len(gaps) else (np.nan, np.nan)
+    said = {"total": len(points.id), "least": (least, "m"), "most": (most, "m")}
+    why = [_naming("evidence.absent", name, points.id[absent], **said)]
+    if ties.cause is not None:
+        why.insert(0, _explained(ties.cause, ties.near, name, int(np.isfinite(points.delivered).all(axis=1).sum())))
+    return tuple(why)
+
+
+_CAUSES = {
+    ("axes", ""): "evidence.cause-axes", ("unit", ""): "evidence.cause-unit", ("shift", ""): "evidence.cause-shift",
+    ("mirror", "right"): "evidence.cause-mirror-right", ("mirror", "up"): "evidence.cause-mirror-up",
+    ("scale", ""): "evidence.cause-scale", ("scale", "right"): "evidence.cause-scale-right",
+    ("scale", "up"): "evidence.cause-scale-up",
+}  # fmt: skip
+
+
+def _explained(cause: Cause, file: str, name: str, n: int) -> Reason:
+    axes = [f"{AXES[k]} = {AXES[own]}" for k, own in enumerate(cause.axes) if own != k]
+    right, up, depth = ((length, "m") for length in cause.shift)
+    message = "evidence.cause-unit-axes" if cause.kind == "unit" and axes else _CAUSES[cause.kind, cause.along]
+    return because(
+        message, element=name, n=n, file=file, axes=axes, factor=f"{cause.factor:.6g}", right=right, up=up, depth=depth
+    )
+
+
+_DISTANCE_DOUBTS = {
+    Ends.ABSENT: "evidence.end-absent", Ends.OTHER_LENGTH: "evidence.other-length",
+    Ends.TOO_LONG: "evidence.too-long", Ends.TOO_SHORT: "evidence.too-short",
+}  # fmt: skip
+
+
+def _not_of_drawing(distances: Distances, ties: DistanceTies, name: str) -> tuple[Reason, ...]:
+    why = []
+    for ends, message in _DISTANCE_DOUBTS.items():
+        rows = ties.ends == ends
+        if rows.any():
+            said = {"total": len(distances.id), "longest": (ties.longest, "m")}
+            why.append(_naming(message, name, distances.id[rows], **said))
+    if ties.factor != 1.0:
+        why.insert(0, because("evidence.distance-factor", element=name, factor=f"{ties.factor:.6g}"))
+    return tuple(why)
+
+
+def _naming(message: str, name: str, ids: Texts, **fields: object) -> Reason:
+    """Reason that names the first of some ids, and how many there are."""
+    shown = [*map(str, ids[:_SHOWN]), *(["…"] if len(ids) > _SHOWN else [])]
+    return because(message, element=name, ids=shown, n=len(ids), **fields)
+
+
+def _worst(group: Index, size: Reals) -> Index:
+    """(m,) of each group the row of the greatest size, in the order of rows."""
+    order = np.lexsort((np.arange(len(group)), -size, group))
+    rows: Index = np.sort(order[np.unique(group[order], return_index=True)[1]])
+    return rows
+
+
+def known(found: Reals) -> Reals:
+    """Differences that are numbers."""
+    finite: Flags = np.isfinite(found)
+    numbers: Reals = found[finite]
+    return numbers

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""How tables of evidence belong to the drawings beside them."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from foparq.columns import Flags, Index, Reals, Texts
+from foparq.findings.because import Because
+from foparq.match.causes import Cause
+
+
+class Lies(StrEnum):
+    """Where a checkpoint lies in the drawings; each is an id in the ``report`` catalogue under ``lies.``."""
+
+    VERTEX = "vertex"
+    LINEWORK = "linework"
+    NAMED = "named"  #: at a point, block or lettering that bears its id
+    TAKEN_NAMED = "taken-named"  #: its coordinates were taken from what bears its id
+    TAKEN_VERTEX = "taken-vertex"  #: its coordinates were taken from the only vertex near by
+    ABSENT = "absent"  #: on no linework: not in the drawing
+    UNTOLD = "untold"  #: no coordinates were delivered, and none could be taken
+
+
+class Ends(StrEnum):
+    """What is known of the ends of a distance; each is an id in the ``report`` catalogue under ``ends.``."""
+
+    POINTS = "points"  #: both are points of a drawing, and the delivered length is theirs
+    NAMES = "names"  #: names only; the length fits into the drawings
+    OTHER_LENGTH = "other-length"  #: both are points of a drawing, and their distance is another
+    ABSENT = "absent"  #: one of them has a place, and no drawing has it there
+    TOO_LONG = "too-long"  #: names only; no drawing holds so long a line
+    TOO_SHORT = "too-short"  #: names only; cannot be seen at the scale of the drawing
+    UNTOLD = "untold"  #: no length was delivered, and none could be taken
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PointTies:
+    """Checkpoints in the drawings, n rows as in the table."""
+
+    lies: Texts  #: (n,) value of :class:`Lies`
+    gap: Reals  #: (n,) to the nearest linework, metres, in the axes that were compared; infinite without any
+    drawing: Texts  #: (n,) path of the drawing it lies in; ``""`` if absent
+    item: Texts  #: (n,) item it lies on
+    layer: Texts  #: (n,) layer of that item
+    delivered: Reals  #: (n, 3) coordinates that count, metres: of the table, else of the drawing; NaN if untold
+    group: Index  #: (n,) points that stand for one place have one number
+    unchecked: Flags  #: (3,) axes in which no drawing could be compared: it is flat
+    cause: Cause | None = None  #: what would put all of them on the drawing
+    near: str = ""  #: path of the drawing of which the cause speaks
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DistanceTies:
+    """Distances in the drawings, n rows as in the table."""
+
+    ends: Texts  #: (n,) value of :class:`Ends`
+    between: Reals  #: (n,) distance of the ends in the drawing, metres; NaN if they are names
+    delivered: Reals  #: (n,) length that counts, metres: of the table, else of the drawing; NaN if untold
+    group: Index  #: (n,) rows that repeat one measurement have one number
+    longest: float  #: greatest length that a drawing holds, metres; NaN without a drawing
+    factor: float = 1.0  #: with which all lengths would be those between the ends: another unit
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ties:
+    """What of the tables belongs to the drawings."""
+
+    points: PointTies | None = None
+    distances: DistanceTies | None = None
+    drawings: int = 0  #: drawings with a known unit, to which anything could be tied
+    broken: Because = Because.RAN  #: why the search broke off: ``LIMIT`` or ``CRASHED``

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+"""What people state by name, beside the files: they answer for it, and every report prints it."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Confirmation:
+    """A statement that witnesses contradict, confirmed by a person."""
+
+    what: str  #: ``unit``, ``plane``, ``scale``, ``crs``, ``checkpoints`` or ``distances``
+    value: str  #: what is confirmed: ``"mm"``; of ``checkpoints`` and ``distances``: ``"not drawn"``
+    by: str
+    reason: str
+    path: str = ""  #: file it speaks of; ``""``: every file that states the value
