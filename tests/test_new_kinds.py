@@ -19,14 +19,13 @@ from foparq.check.calls import Patterns
 from foparq.check.registry import all_rules
 from foparq.check.rule import Rule, rule
 from foparq.check.run import Checked, check_part
-from foparq.check.subject import Places, Subject, Taken
+from foparq.check.subject import NO_DOUBT, Doubt, Places, Subject, Taken
 from foparq.columns import Index, Reals, Texts
 from foparq.evaluate import kinds
 from foparq.evaluate.evaluate import evaluate
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.kinds import Kind
 from foparq.evaluate.quality import Element, ElementStatus, Verdict, because
-from foparq.findings.because import Because
 from foparq.findings.hits import Deviations, Hits, hits
 from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import Severity
@@ -100,8 +99,8 @@ class CloudSubject(Subject):
     def examined(self, kind: type) -> bool:  # noqa: ARG002 - the engine's call
         return False
 
-    def doubt(self, outcomes: Sequence[Outcome]) -> Because:  # noqa: ARG002 - the engine's call
-        return Because.RAN
+    def doubt(self, outcomes: Sequence[Outcome]) -> Doubt:  # noqa: ARG002 - the engine's call
+        return NO_DOUBT
 
     def counted(self, rows: Index, faulty: Index) -> int:  # noqa: ARG002 - the engine's call
         return len(rows)

@@ -17,6 +17,7 @@ from foparq import __version__
 from foparq.check.bounds import Broken, Budget, budget_of
 from foparq.check.drawn.features import count_features
 from foparq.check.drawn.ties import Nearness, tie_evidence
+from foparq.check.drawn.witnesses import with_witnesses
 from foparq.check.run import check_part
 from foparq.check.validate import validate_checks
 from foparq.errors import ManifestError, UnsafeError
@@ -170,10 +171,12 @@ def _judged(
     progress: Progress | None, *, loose: bool,
 ) -> Audit:  # fmt: skip
     started = datetime.now(UTC).isoformat(timespec="seconds")
+    ties, untied = _tied(delivery, profile, scale) if not loose else (None, None)
+    if not loose:
+        delivery = with_witnesses(delivery, ties)
     checked = [check_part(part, profile, scale, progress, _in_child) for part in delivery.parts]
     outcomes = tuple(outcome for one in checked for outcome in one.outcomes)
     findings = join_findings([one.findings for one in checked])
-    ties, untied = _tied(delivery, profile, scale) if not loose else (None, None)
     gap = profile.completeness.gap.si(scale) if profile.completeness and not loose else None
     counts, broken = (None, None) if gap is None else _counted(delivery, gap, profile)
     traces = (

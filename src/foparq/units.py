@@ -44,6 +44,7 @@ LENGTHS: dict[str, float] = {
     "ft": 0.3048,
     "yd": 0.9144,
 }
+_SAME_UNIT = 0.02  #: relative difference of lettering to the unit it means
 _FINEST_UNIT, _COARSEST_UNIT = 1e-9, 1e6  #: metres that a drawing unit can be
 _AREAS = {f"{name}2": factor**2 for name, factor in LENGTHS.items()}
 _SPELLED = {
@@ -64,6 +65,18 @@ _QUANTITY = re.compile(
     r"^\s*(?P<number>[+-]?[0-9]+(?:[.,][0-9]+)?(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>[^\s@\d]+[²2]?)\s*(?P<scale>@\s*scale)?\s*$"
 )
 _SCALE = re.compile(r"^\s*1\s*[:/]\s*(?P<denominator>[0-9]+(?:[.,][0-9]+)?)\s*$")
+
+
+def length_name(metres: float) -> str:
+    """Name of a unit of length, or its length in metres where it has none.
+
+    Examples
+    --------
+    >>> length_name(0.001), length_name(0.5)
+    ('mm', '0.5 m')
+    """
+    named = (name for name, length in LENGTHS.items() if math.isclose(length, metres, rel_tol=_SAME_UNIT))
+    return next(named, f"{metres:.3g} m")
 
 
 @dataclass(frozen=True, slots=True)

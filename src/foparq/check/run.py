@@ -197,8 +197,8 @@ def _looked(
     call: Call, outcome: Outcome, subject: Subject, outcomes: Sequence[Outcome], rules: Mapping[str, Rule]
 ) -> tuple[Outcome, Findings | None]:
     """What the rule finds, or why it cannot look."""
-    if call.rule.metric and (doubt := subject.doubt(outcomes)) is not Because.RAN:
-        return replace(outcome, because=doubt), None
+    if call.rule.metric and (doubt := subject.doubt(outcomes)).because is not Because.RAN:
+        return replace(outcome, because=doubt.because, names=doubt.names), None
     outcome = replace(outcome, parameters=call.parameters)
     seen = judged(call, rules, outcomes, subject)
     outcome = replace(outcome, unjudged=seen.unjudged, aside=seen.named)

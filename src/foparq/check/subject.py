@@ -29,6 +29,16 @@ class Taken(NamedTuple):
     unfit: Index  #: rows of the part's items that are of the kind, and that the input cannot hold
 
 
+class Doubt(NamedTuple):
+    """Why tolerances in metres mean nothing on a part."""
+
+    because: Because
+    names: tuple[str, ...] = ()  #: who says otherwise, in words of the files
+
+
+NO_DOUBT = Doubt(Because.RAN)
+
+
 class Places(NamedTuple):
     """Where k findings lie."""
 
@@ -101,8 +111,8 @@ class Subject(ABC):
         """Whether an empty input means that the file was looked at and nothing was there to report."""
 
     @abstractmethod
-    def doubt(self, outcomes: Sequence[Outcome]) -> Because:
-        """Why tolerances in metres mean nothing on this part; ``Because.RAN`` if they do."""
+    def doubt(self, outcomes: Sequence[Outcome]) -> Doubt:
+        """Why tolerances in metres mean nothing on this part; ``NO_DOUBT`` if they do."""
 
     @abstractmethod
     def counted(self, rows: Index, faulty: Index) -> int:

@@ -17,6 +17,7 @@ import numpy as np
 from foparq.columns import Texts
 from foparq.evaluate.evidence import Evidence, Judgement, judged
 from foparq.evaluate.quality import ElementStatus, Reason, because
+from foparq.evaluate.tally import where_broken
 from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.model.tables import FeatureList
@@ -185,15 +186,19 @@ def uncounted(evidence: Evidence, name: str) -> tuple[Reason, ...]:
 
 
 #: why rules with lengths did not run on a drawing, and what that means for its features
-_DOUBTS = {"unit-doubtful": "features.unit-doubtful", "plane-doubtful": "features.plane-doubtful"}
+_DOUBTS = {
+    Because.UNIT_DOUBTFUL: "features.unit-doubtful", Because.UNIT_CONTRADICTED: "features.unit-contradicted",
+    Because.PLANE_DOUBTFUL: "features.plane-doubtful", Because.PLANE_CONTRADICTED: "features.plane-contradicted",
+}  # fmt: skip
 
 
 def doubtful(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     """Drawings whose unit or plane is in doubt: what counts as one feature depends on both, so counts say nothing."""
     why = []
     for doubt, message in _DOUBTS.items():
-        doubted = {outcome.source for outcome in evidence.outcomes if outcome.because == doubt}
-        files = [drawing.path for drawing in evidence.delivery.drawings if drawing.classes and drawing.path in doubted]
+        doubted = {outcome.source: where_broken(outcome) for outcome in evidence.outcomes if outcome.because is doubt}
+        bound = [drawing.path for drawing in evidence.delivery.drawings if drawing.classes]
+        files = [doubted[path] for path in bound if path in doubted]
         if files:
             why.append(because(message, element=name, files=files))
     return tuple(why)

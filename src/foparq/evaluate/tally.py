@@ -16,7 +16,10 @@ from foparq.findings.outcome import Outcome, Status
 from foparq.profile.elements import ElementSpec
 
 #: reasons that speak of a whole file
-OF_FILES = frozenset({Because.UNIT_UNKNOWN, Because.UNIT_DOUBTFUL, Because.PLANE_DOUBTFUL})
+OF_FILES = frozenset({
+    Because.UNIT_UNKNOWN, Because.UNIT_DOUBTFUL, Because.UNIT_CONTRADICTED, Because.PLANE_DOUBTFUL,
+    Because.PLANE_CONTRADICTED,
+})  # fmt: skip
 _ITEMS = 10  #: items that a reason names
 
 
@@ -74,10 +77,10 @@ def tally(evidence: Evidence, names: Sequence[str]) -> Tally:
 
 def where_broken(outcome: Outcome) -> str:
     """What a reason names: the file, and the rule where it is the rule's own matter."""
+    names = f" ({', '.join(outcome.names)})" if outcome.names else ""
     if outcome.because in OF_FILES:
-        return outcome.source
-    required = f" ({', '.join(outcome.names)})" if outcome.names else ""
-    return f"{outcome.name}{required} · {outcome.source}"
+        return f"{outcome.source}{names}"
+    return f"{outcome.name}{names} · {outcome.source}"
 
 
 def _items(outcomes: Sequence[Outcome], *, unfit: bool) -> tuple[str, ...]:

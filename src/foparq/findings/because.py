@@ -15,7 +15,9 @@ class Because(StrEnum):
     ALL_ASIDE = "all-set-aside"  #: nothing is left that can be judged
     UNIT_UNKNOWN = "unit-unknown"
     UNIT_DOUBTFUL = "unit-doubtful"
+    UNIT_CONTRADICTED = "unit-contradicted"  #: stated, and two witnesses say another
     PLANE_DOUBTFUL = "plane-doubtful"
+    PLANE_CONTRADICTED = "plane-contradicted"  #: stated, and another shows what the drawing is
     REQUIRED_UNBOUND = "required-unbound"  #: a required rule is no part of the run, or not on these layers
     REQUIRED_NOT_RUN = "required-not-run"
     REQUIRED_CRASHED = "required-crashed"

@@ -46,9 +46,9 @@ def by_axes_or_unit(points: Coordinates, factors: tuple[float, ...], holds: Hold
     if not _enough(points):
         return None
     for factor in (1.0, *factors):
-        for axes in permutations(range(3)):
-            if (factor != 1.0 or axes != (0, 1, 2)) and holds(points[:, axes] * factor).all():
-                return Cause("axes" if factor == 1.0 else "unit", axes=axes, factor=factor)
+        for x, y, z in permutations(range(3)):
+            if (factor != 1.0 or (x, y, z) != (0, 1, 2)) and holds(points[:, (x, y, z)] * factor).all():
+                return Cause("axes" if factor == 1.0 else "unit", axes=(x, y, z), factor=factor)
     return None
 
 

@@ -147,6 +147,15 @@ class DrawingUnit:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Heard:
+    """What another file of the delivery says of the unit of a drawing."""
+
+    witness: str  #: ``tables`` or ``drawing``
+    path: str  #: of that file
+    says: float  #: metres in one drawing unit
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Reading:
     """What the reader learned of one file, beside its items."""
 
@@ -173,6 +182,8 @@ class Drawing(Part):
     facade: str = ""
     classes: dict[str, str] = field(default_factory=dict)  #: layer pattern to feature class
     areas: tuple[str, ...] = ()  #: patterns of the layers whose closed lines bound areas of a coverage
+    heard: tuple[Heard, ...] = ()  #: what other files of the delivery say of its unit
+    confirmed: frozenset[str] = frozenset()  #: what a person confirmed of it: ``unit``, ``plane``
 
     @property
     def features(self) -> int:

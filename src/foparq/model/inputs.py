@@ -104,6 +104,7 @@ class LayerPatterns(Named):
 class UnitEvidence(Named):
     """Statements about the drawing unit other than the one in use; one row a statement."""
 
+    witness: Texts  #: (n,) who says it: ``header``, ``lettering``, ``projection``, ``extent``, ``tables``, ``drawing``
     says: Reals  #: (n,) metres in one drawing unit by this statement
     used: Reals  #: (n,) metres in one drawing unit as used; NaN if none is known
     weight: Reals  #: (n,) relative difference that this statement cannot tell apart

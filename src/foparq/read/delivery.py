@@ -20,7 +20,8 @@ from foparq.model.items import Items, Role
 from foparq.model.plane import Plane, plane_of
 from foparq.model.statements import Confirmation
 from foparq.model.tables import Checkpoints, Distances, FeatureList
-from foparq.profile.manifest import DrawingSection, Manifest, TableSection
+from foparq.names import folded
+from foparq.profile.manifest import ConfirmedSection, DrawingSection, Manifest, TableSection
 from foparq.profile.schema import Profile
 from foparq.read.guard.parent import guarded
 from foparq.read.guard.paths import inside, name_of
@@ -88,7 +89,8 @@ def read_delivery(
     if manifest_name:
         take_manifest(intake, root, manifest_name)
     for section in manifest.drawing:
-        _drawing(intake, section, shown_path(section.path), partial(inside, root, section.path))
+        find = partial(inside, root, section.path)
+        _drawing(intake, section, shown_path(section.path), find, manifest.confirmed)
     checkpoints = _table(intake, root, "checkpoints", manifest.checkpoints, read_checkpoints)
     distances = _table(intake, root, "distances", manifest.distances, read_distances)
     features = _table(intake, root, "features", manifest.features, lambda path, _: read_feature_list(path))
@@ -169,7 +171,10 @@ def read_drawing(path: Path, section: DrawingSection, profile: Profile, sagitta:
     return read_gis(path, limits=profile.limits, sagitta=sagitta, unit=section.unit, layers=section.layers)
 
 
-def _drawing(intake: Intake, section: DrawingSection, name: str, find: Callable[[], Path]) -> None:
+def _drawing(
+    intake: Intake, section: DrawingSection, name: str, find: Callable[[], Path],
+    confirmed: Sequence[ConfirmedSection] = (),
+) -> None:  # fmt: skip
     intake.tell(name)
     source = Source(path=name, role="drawing", sha256="", bytes=0, status=SourceStatus.REFUSED)
     limits = intake.profile.limits
@@ -202,12 +207,12 @@ def _drawing(intake: Intake, section: DrawingSection, name: str, find: Callable[
     else:
         status = SourceStatus.RECOVERED if raw.reading.repairs else SourceStatus.READ
         intake.sources.append(replace(source, status=status, items=len(raw.items), skipped=raw.reading.skipped))
-        intake.drawings.append(_joined(raw, section, name))
+        intake.drawings.append(_joined(raw, section, name, confirmed))
     if path is not None:
         take_companions(intake, name, path, limits.bytes)
 
 
-def _joined(raw: RawDrawing, section: DrawingSection, name: str) -> Drawing:
+def _joined(raw: RawDrawing, section: DrawingSection, name: str, confirmed: Sequence[ConfirmedSection]) -> Drawing:
     try:
         plane = _plane(raw.items, section)
     except ManifestError as error:
@@ -215,7 +220,15 @@ def _joined(raw: RawDrawing, section: DrawingSection, name: str) -> Drawing:
     return Drawing(
         path=name, items=raw.items, reading=raw.reading, unit=raw.unit, plane=plane,
         facade=section.facade, classes=dict(section.classes), areas=section.areas,
+        confirmed=frozenset(one.what for one in confirmed if _confirms(one, section)),
     )  # fmt: skip
+
+
+def _confirms(one: ConfirmedSection, section: DrawingSection) -> bool:
+    """Whether a person confirms what the manifest states of a drawing."""
+    stated = {"unit": section.unit, "plane": section.plane}.get(one.what)
+    same = isinstance(stated, str) and folded(stated) == folded(one.value)
+    return same and one.path in {"", section.path}
 
 
 def _plane(items: Items, section: DrawingSection) -> Plane:

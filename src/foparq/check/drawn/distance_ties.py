@@ -53,7 +53,7 @@ def tie_distances(
     DistanceTies, n rows
     """
     ends = _ends(distances, points, ties, grounds, tie)
-    both = ends.known.all(axis=1)
+    both: Flags = np.all(ends.known, axis=1)
     step = ends.places[:, 1] - ends.places[:, 0]
     between = np.where(both, np.sqrt(np.nansum(step**2, axis=1)), np.nan)
     lengths = [between]
@@ -117,8 +117,8 @@ def _groups(distances: Distances, ends: _Places, both: Flags, tie: float) -> Ind
     for row, (a, b) in enumerate(zip(distances.start, distances.end, strict=True)):
         if a and b:
             by_names[tuple(sorted((folded(str(a)), folded(str(b)))))].append(row)
-    for rows in by_names.values():
-        group[rows] = rows[0]
+    for same_names in by_names.values():
+        group[same_names] = same_names[0]
     rows = np.flatnonzero(both)
     if len(rows):
         pair = np.nan_to_num(ends.places[rows])

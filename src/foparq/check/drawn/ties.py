@@ -100,11 +100,12 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
         compared[on] = True
         compared[on, ground.depth_axis] = ground.deep
     absent = lies == Lies.ABSENT
+    seen: Flags = compared.any(axis=0)
     lies[absent & untold] = str(Lies.UNTOLD)
     cause, drawing = _cause(points.delivered, absent & ~untold, grounds, within)
     return PointTies(
         lies=lies, gap=gap, **names, delivered=delivered, group=repeats(points.surveyed, apart=near.apart),
-        unchecked=~compared.any(axis=0), cause=cause, near=drawing,
+        unchecked=~seen, cause=cause, near=drawing,
     )  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from foparq.model.drawing import Dimensions, Drawing, UnitOrigin
 from foparq.model.inputs import UnitEvidence
 from foparq.model.items import Role
 from foparq.model.lettering import lettered_length
-from foparq.units import LENGTHS
+from foparq.units import LENGTHS, length_name
 
 _SAME_GROUP = 0.05  #: ratios of lettered to measured length that lie nearer than this are one group
 _LEAST_SHARE = 0.25  #: a smaller group is faulty lettering or a detail, not the unit of the drawing
@@ -20,6 +20,9 @@ _EXAMPLES = 5
 _STRETCH = 0.002  #: scale of a projection that no survey of a building could overlook
 _SMALLEST = 0.2  #: metres across that a drawing of a building has at least
 _LARGEST_DXF, _LARGEST_GIS = 500.0, 20_000.0  #: and at most: of a building, and of a town in a map
+_FAR = 3.0  #: strays lie farther from the drawing than it is wide, so many times
+_MOST = 0.8  #: share of the items that the drawing itself has at least
+_FEW = 0.05  #: and are no larger share of the items; one item always may be
 _VAGUE = 0.5  #: weight of what is merely implausible
 _MATCH = 0.02  #: relative difference of a lettered number to the measured length in another unit
 
@@ -32,6 +35,7 @@ _PAIRS = {
 
 @dataclass(frozen=True, slots=True)
 class _Statement:
+    witness: str
     says: float  #: metres in one drawing unit
     weight: float
     item: str
@@ -51,7 +55,7 @@ def unit_evidence(drawing: Drawing) -> UnitEvidence:
         In this order, each only where there is such a statement: the file's header (item ``"$INSUNITS"``, or ``"crs"``
         where the file is no DXF), unless it is what is used; one for each group of dimensions whose lettering agrees
         (item: the first of them; handle: ``"DIMENSION"``, up to five, and how many more); the projection (item
-        ``"projection"``); the extent (item ``"extent"``).
+        ``"projection"``); the extent (item ``"extent"``); what other files of the delivery say (item: their path).
 
     Notes
     -----
@@ -60,26 +64,48 @@ def unit_evidence(drawing: Drawing) -> UnitEvidence:
     1 says nothing. A group of less than a quarter of the dimensions is no statement about the drawing.
 
     A projection that stretches lengths by more than 0.2 % contradicts the metres it is counted in. The extent speaks
-    only if the drawing would be less than 0.2 m across, or more than 500 m (DXF) or 20 km (maps); against strays, the
-    larger bound looks at the middle four fifths of the items.
+    only if the drawing would be less than 0.2 m across, or more than 500 m (DXF) or 20 km (maps). Against strays, the
+    larger bound looks at the middle four fifths of the items, and the smaller one leaves out the few that lie far from
+    all others.
     """
     statements: list[_Statement] = []
     unit = drawing.unit
     header = "$INSUNITS" if drawing.reading.version.startswith("AC") else "crs"
     if unit.header_metres is not None and unit.origin is not UnitOrigin.HEADER:
-        statements.append(_Statement(unit.header_metres, 0.0, header, handle=unit.header))
+        statements.append(_Statement("header", unit.header_metres, 0.0, header, handle=unit.header))
     if drawing.reading.dimensions is not None:
         statements.extend(_by_lettering(drawing, drawing.reading.dimensions))
     if unit.metres is not None:
         if abs(unit.stretch - 1) > _STRETCH:
-            statements.append(_Statement(unit.metres / unit.stretch, 0.0, "projection", handle=unit.header))
+            statements.append(
+                _Statement("projection", unit.metres / unit.stretch, 0.0, "projection", handle=unit.header)
+            )
         largest = _LARGEST_DXF if drawing.reading.version.startswith("AC") else _LARGEST_GIS
         across = _implausible(drawing, unit.metres, largest)
         if across is not None:
             plausible = _SMALLEST if across < _SMALLEST else largest
             says = unit.metres * plausible / across
-            statements.append(_Statement(says, _VAGUE, "extent", handle=f"{across:.3g} m"))
+            statements.append(_Statement("extent", says, _VAGUE, "extent", handle=f"{across:.3g} m"))
+    statements.extend(_Statement(one.witness, one.says, 0.0, one.path) for one in drawing.heard)
     return _columns(statements, np.nan if unit.metres is None else unit.metres)
+
+
+def against(drawing: Drawing, agree: float) -> dict[str, str]:
+    """Independent witnesses that contradict the unit in use, and what they say, in words of the files.
+
+    Parameters
+    ----------
+    agree : float
+        Relative difference up to which two units are one.
+    """
+    evidence = unit_evidence(drawing)
+    said: dict[str, str] = {}
+    for row in np.flatnonzero(np.abs(evidence.says / evidence.used - 1) > np.maximum(agree, evidence.weight)):
+        # A projection is what the header names.
+        witness = "header" if evidence.witness[row] == "projection" else str(evidence.witness[row])
+        what = evidence.handle[row] if witness == "extent" else length_name(float(evidence.says[row]))
+        said.setdefault(witness, f"{evidence.item[row]}: {what}")
+    return said
 
 
 def _columns(statements: list[_Statement], used: float) -> UnitEvidence:
@@ -88,7 +114,7 @@ def _columns(statements: list[_Statement], used: float) -> UnitEvidence:
         where[n] = shapely.Point() if statement.where is None else statement.where
     text = {
         name: np.array([getattr(statement, name) for statement in statements], dtype=object)
-        for name in ("layer", "item", "handle", "inserts")
+        for name in ("witness", "layer", "item", "handle", "inserts")
     }
     return UnitEvidence(
         **text,
@@ -134,6 +160,7 @@ def _grouped(drawing: Drawing, dimensions: Dimensions, says: Reals, group: np.nd
     row = _row_of(drawing, str(dimensions.handle[by_handle[0]]))
     items = drawing.items
     return _Statement(
+        witness="lettering",
         says=float(np.median(says[group])),
         weight=_LETTERING,
         item=str(items.item[row]) if row >= 0 else str(dimensions.handle[by_handle[0]]),
@@ -163,11 +190,26 @@ def _implausible(drawing: Drawing, metres: float, largest: float) -> float | Non
     heights = shapely.get_coordinates(np.array(raised, dtype=object), include_z=True)[:, 2] if raised else np.zeros(1)
     heights = heights[np.isfinite(heights)]
     depth = np.ptp(heights) if len(heights) else 0.0
-    across = max(*(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)), depth) * metres
-    if across == 0:
+    together = max(*(_span(boxes[:, axis], boxes[:, axis + 2]) for axis in (0, 1)), depth) * metres
+    if together == 0:
         return None
-    if across < _SMALLEST:
-        return float(across)
+    if together < _SMALLEST:
+        return float(together)
     middle = np.quantile(boxes[:, 2:], 0.9, axis=0) - np.quantile(boxes[:, :2], 0.1, axis=0)
     spread = float(np.max(middle)) * metres
     return spread if spread > largest else None
+
+
+def _span(low: Reals, high: Reals) -> float:
+    """Extent of intervals along one axis, without the few that lie far from all others."""
+    order = np.argsort(low, kind="stable")
+    low, reach = low[order], np.maximum.accumulate(high[order])
+    starts = np.concatenate([[0], np.flatnonzero(low[1:] > reach[:-1]) + 1])
+    count = np.diff([*starts, len(low)])
+    main = int(np.argmax(count))
+    ends = np.maximum.reduceat(high[order], starts)
+    first, last = low[starts[main]], ends[main]
+    near = _FAR * (last - first)
+    few = max(1.0, _FEW * len(low)) if count[main] >= _MOST * len(low) else 0.0
+    kept = (count > few) | ((low[starts] <= last + near) & (ends >= first - near))
+    return float(ends[kept].max() - low[starts][kept].min())

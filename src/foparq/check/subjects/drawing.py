@@ -9,8 +9,10 @@ import shapely
 
 from foparq.check.drawn.columns import Columns
 from foparq.check.drawn.facts import EXAMINED, FACTS
+from foparq.check.drawn.stance import better_plane
+from foparq.check.drawn.unit_evidence import against
 from foparq.check.layers import literal, matches
-from foparq.check.subject import Patterns, Places, Subject, Taken, subject
+from foparq.check.subject import NO_DOUBT, Doubt, Patterns, Places, Subject, Taken, subject
 from foparq.columns import Geometries, Index, Texts
 from foparq.findings.because import Because
 from foparq.findings.hits import Hits
@@ -24,6 +26,7 @@ from foparq.profile.schema import Profile
 
 _UNIT_RULE = "unit-contradiction"
 _LINEWORK = frozenset({Features, Lines, Areas})
+_WITNESSES = 2  #: independent ones that contradict a person
 _ALL: Patterns = ("*",)
 
 
@@ -80,15 +83,34 @@ class DrawingSubject(Subject):
         """Statements that nobody made mean that there was nothing to say."""
         return kind in EXAMINED
 
-    def doubt(self, outcomes: Sequence[Outcome]) -> Because:
-        """Unit unknown or contradicted, or a plane that shows the drawing from its edge."""
+    def doubt(self, outcomes: Sequence[Outcome]) -> Doubt:
+        """Unit unknown or contradicted, or a plane that is not the drawing's.
+
+        The file's own unit is doubtful as soon as one statement contradicts it. A unit that a person states is so if
+        two independent witnesses say otherwise, or another drawing with the same coordinates, until it is confirmed.
+        """
         unit = self.drawing.unit
         if unit.metres is None:
-            return Because.UNIT_UNKNOWN
-        doubted = any(outcome.name == _UNIT_RULE and outcome.status is Status.FAULTY for outcome in outcomes)
+            return Doubt(Because.UNIT_UNKNOWN)
+        doubted = [outcome for outcome in outcomes if outcome.name == _UNIT_RULE and outcome.status is Status.FAULTY]
         if doubted and unit.origin is not UnitOrigin.STATED:
-            return Because.UNIT_DOUBTFUL
-        return Because.PLANE_DOUBTFUL if self._edge_on else Because.RAN
+            return Doubt(Because.UNIT_DOUBTFUL)
+        if doubted and "unit" not in self.drawing.confirmed:
+            witnesses = against(self.drawing, max(dict(_agree(one)).get("agree", 0.0) for one in doubted))
+            if len(witnesses) >= _WITNESSES or "drawing" in witnesses:
+                return Doubt(Because.UNIT_CONTRADICTED, (f"unit: {unit.name}", *witnesses.values()))
+        return self._plane_doubt
+
+    @cached_property
+    def _plane_doubt(self) -> Doubt:
+        if "plane" in self.drawing.confirmed:
+            return NO_DOUBT
+        if self.columns.seen_edge_on():
+            return Doubt(Because.PLANE_DOUBTFUL)
+        if better := better_plane(self.columns):
+            stated = self.drawing.plane.name != "assumed"
+            return Doubt(Because.PLANE_CONTRADICTED if stated else Because.PLANE_DOUBTFUL, (better,) if stated else ())
+        return NO_DOUBT
 
     def counted(self, rows: Index, faulty: Index) -> int:
         """Features judged. A point has no topology: it counts only where it is at fault."""
@@ -122,10 +144,6 @@ class DrawingSubject(Subject):
         return self.drawing.plane.lift(flat, self.metres)
 
     @cached_property
-    def _edge_on(self) -> bool:
-        return self.columns.seen_edge_on()
-
-    @cached_property
     def _on_layer(self) -> dict[str, Index]:
         # Rows of the columns by layer; they are in order of layers.
         names, start, count = np.unique(self.columns.layer.astype(str), return_index=True, return_counts=True)
@@ -143,6 +161,10 @@ class DrawingSubject(Subject):
         rows = self.columns.build(kind, on)
         every = self.columns.rows[self.columns.of_kind(kind, on)]
         return Taken(rows, np.setdiff1d(every, rows.row))
+
+
+def _agree(outcome: Outcome) -> list[tuple[str, float]]:
+    return [(name, value) for name, value, _ in outcome.parameters]
 
 
 def _with_depth(found: Hits, geometry: Geometries) -> Geometries:
