@@ -17,8 +17,8 @@ from foparq.profile.elements import ElementSpec
 
 #: reasons that speak of a whole file
 OF_FILES = frozenset({
-    Because.UNIT_UNKNOWN, Because.UNIT_DOUBTFUL, Because.UNIT_CONTRADICTED, Because.PLANE_DOUBTFUL,
-    Because.PLANE_CONTRADICTED,
+    Because.UNIT_UNKNOWN, Because.UNIT_ANGLE, Because.CRS_UNFIT, Because.UNIT_DOUBTFUL, Because.UNIT_CONTRADICTED,
+    Because.PLANE_DOUBTFUL, Because.PLANE_CONTRADICTED,
 })  # fmt: skip
 _ITEMS = 10  #: items that a reason names
 

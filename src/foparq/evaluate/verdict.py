@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
+from foparq.evaluate.scale import scale_doubts
 from foparq.evaluate.tied import AXES
 from foparq.findings.outcome import Status
 from foparq.model.delivery import SourceStatus
@@ -29,6 +30,9 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     doubts += lost_files(evidence) + crashes(evidence)
     if not required:
         doubts.append(because("verdict.nothing-required"))
+    doubted, remarked = scale_doubts(profile, evidence)
+    if doubted:
+        return _report(Verdict.UNDECIDED, (*doubted, *failing, *doubts), elements, evidence)
     if failed:
         shift = [because("verdict.shift")] if _shifted(profile, elements) else []
         return _report(Verdict.REJECTED, (*failing, *shift, *doubts), elements, evidence)
@@ -39,7 +43,11 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     others = [element.id for element in elements if element not in required]
     if others:
         why.append(because("verdict.not-required", elements=others))
-    remarks = _together(element.why[1:] for element in required) + _hidden(evidence)
+    remarks = remarked + _together(element.why[1:] for element in required) + _hidden(evidence)
+    remarks += [
+        because("verdict.confirmed", what=one.what, value=one.value, by=one.by, reason=one.reason)
+        for one in evidence.delivery.confirmed
+    ]
     return _report(Verdict.ACCEPTED, (*why, *remarks), elements, evidence)
 
 

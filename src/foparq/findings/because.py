@@ -14,6 +14,8 @@ class Because(StrEnum):
     NOTHING = "nothing-to-check"  #: there is nothing of the kind: no fault can hide there
     ALL_ASIDE = "all-set-aside"  #: nothing is left that can be judged
     UNIT_UNKNOWN = "unit-unknown"
+    UNIT_ANGLE = "unit-angle"  #: coordinates are degrees: no length
+    CRS_UNFIT = "crs-unfit"  #: coordinates that the reference system cannot have
     UNIT_DOUBTFUL = "unit-doubtful"
     UNIT_CONTRADICTED = "unit-contradicted"  #: stated, and two witnesses say another
     PLANE_DOUBTFUL = "plane-doubtful"

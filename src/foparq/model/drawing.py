@@ -126,6 +126,25 @@ class Dimensions:
     where: Geometries  #: (n,) point, drawing units
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Labels:
+    """Short letterings that may name a point, as columns of equal length n."""
+
+    text: Texts  #: (n,) as written
+    place: Reals  #: (n, 3) of the lettering, or of the insert whose attribute it is; drawing units
+    block: Flags  #: (n,) it is an attribute: the place is exact
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StatedScale:
+    """A scale that the file states of itself."""
+
+    witness: str  #: ``lettering`` or ``viewport``
+    said: str  #: the lettering, or the viewport with its handle
+    denominator: float = 0.0  #: k of 1:k, as lettered; 0 where it follows from ``ratio``
+    ratio: float = 0.0  #: drawing units on one unit of the paper
+
+
 class UnitOrigin(StrEnum):
     """Who said what one drawing unit is."""
 
@@ -166,6 +185,8 @@ class Reading:
     bombs: tuple[Bomb, ...] = ()
     bad_names: tuple[str, ...] = ()  #: layer names that look doubly encoded
     dimensions: Dimensions | None = None
+    labels: Labels | None = None
+    scales: tuple[StatedScale, ...] = ()
     layers: tuple[str, ...] = ()  #: every layer of the file, also the empty ones
     hidden_layers: tuple[str, ...] = ()  #: off or frozen layers
     crs: str = ""  #: coordinate reference system, ``"EPSG:31982"``

@@ -33,6 +33,7 @@ _TOP_KEYS = {
 }
 #: a right example for a key, shown when its value is wrong
 _EXAMPLES = {
+    "coarsest": 'coarsest = "1:200"',
     "drawing": "[[drawing]]",
     "apart": 'apart = "1 mm @ scale"',
     "areas": 'areas = ["REVESTIMENTO"]',
@@ -40,6 +41,7 @@ _EXAMPLES = {
     "classes": 'classes = { "PORTA*" = "door" }',
     "crs": 'crs = "local"',
     "facade": 'facade = "N"',
+    "finest": 'finest = "1:1"',
     "gap": 'gap = "0.2 mm @ scale"',
     "hidden": 'hidden = "leave"',
     "by": 'by = "name and office"',

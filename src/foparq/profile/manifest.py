@@ -6,8 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
-from foparq.profile.quantities import Length, Strict
-from foparq.units import parse_length_unit, parse_scale
+from foparq.profile.quantities import Length, ScaleText, Strict
+from foparq.units import parse_length_unit
 
 
 def _known_unit(text: object) -> str:
@@ -15,16 +15,10 @@ def _known_unit(text: object) -> str:
     return str(text)
 
 
-def _known_scale(text: object) -> str:
-    parse_scale(text)
-    return str(text)
-
-
 #: no building is larger than its planet
 Ordinate = Annotated[float, Field(ge=-1e8, le=1e8, allow_inf_nan=False)]
 Triple = tuple[Ordinate, Ordinate, Ordinate]
 UnitName = Annotated[str, BeforeValidator(_known_unit)]
-ScaleText = Annotated[str, BeforeValidator(_known_scale)]
 
 
 class DeliverySection(Strict):

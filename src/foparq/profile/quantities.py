@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
-from foparq.units import Quantity, parse_any_quantity, parse_quantity
+from foparq.units import Quantity, parse_any_quantity, parse_quantity, parse_scale
 
 
 def _quantity(symbol: str) -> BeforeValidator:
@@ -20,6 +20,14 @@ Share = Annotated[
 AnyQuantity = Annotated[
     Quantity, BeforeValidator(lambda text: text if isinstance(text, Quantity) else parse_any_quantity(text))
 ]
+
+
+def _known_scale(text: object) -> str:
+    parse_scale(text)
+    return str(text)
+
+
+ScaleText = Annotated[str, BeforeValidator(_known_scale)]
 
 
 class Strict(BaseModel):

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from foparq.findings.table import Severity
 from foparq.profile.elements import ElementSpec
-from foparq.profile.quantities import AnyQuantity, Length, Strict
+from foparq.profile.quantities import AnyQuantity, Length, ScaleText, Strict
 
 
 class CheckSpec(Strict):
@@ -57,6 +57,8 @@ class EvidenceSpec(Strict):
     apart: Length  #: checkpoints not farther apart stand for one place
     search: Length  #: radius in which the only vertex is taken for a checkpoint without delivered coordinates
     visible: Length  #: what is shorter cannot be measured at the scale of the drawing
+    finest: ScaleText | None = None  #: a finer scale is doubtful for the product
+    coarsest: ScaleText | None = None  #: and a coarser one
 
 
 class ReadingSpec(Strict):

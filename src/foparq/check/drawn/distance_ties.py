@@ -35,7 +35,7 @@ def tie_distances(
     """Distances held against drawings.
 
     An end is a point of a drawing if the table gives its coordinates and linework lies there, or if its name is the id
-    of a checkpoint that lies in a drawing. The delivered length must be that between the ends, or that in the plane
+    of a checkpoint that lies in a drawing, or borne by one place there. The delivered length must be that between the ends, or that in the plane
     where the drawing is flat, but for ``2 tie`` and the printed digits. Where the ends are names only, a drawing must
     be able to hold the length.
 
@@ -101,6 +101,11 @@ def _ends(
                 places[row, end] = ties.delivered[at]
                 known[row, end] = ties.lies[at] not in {Lies.ABSENT, Lies.UNTOLD}
                 absent[row, end] = ties.lies[at] == Lies.ABSENT
+    for end, names in enumerate((distances.start, distances.end)):
+        for row in np.flatnonzero(~(given | known | absent)[:, end]).tolist():
+            borne = [place for one in grounds if (place := one.bearing(str(names[row]))) is not None]
+            if len(borne) == 1:
+                places[row, end], known[row, end] = borne[0], True
     flat = next((ground.depth_axis for ground in grounds if not ground.deep), -1)
     return _Places(places, known, absent, flat)
 

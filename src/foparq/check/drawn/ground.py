@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Linework of a drawing as places of tables are held against it."""
 
+from collections import defaultdict
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +14,9 @@ from foparq.match.linework import Footing, Linework, footing, stands_in_space
 from foparq.model.drawing import Drawing
 from foparq.model.inputs import Lines
 from foparq.model.items import Role
+from foparq.names import folded
+
+_BESIDE = 0.5  #: metres between a point and the lettering that names it
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +28,7 @@ class Ground:
     item: Texts  #: (m,)
     layer: Texts  #: (m,)
     deep: bool  #: it stands in space: depths are compared
+    named: Mapping[str, Coordinates]  #: places (k, 3) that bear a name, in the axes of the file, metres
 
     @property
     def metres(self) -> float:
@@ -55,6 +61,16 @@ class Ground:
         """Linework on which places (n, 3) in metres, in the axes of the file, lie."""
         return footing(self.on_sheet(places), self.work, within=within, deep=self.deep)
 
+    def bearing(self, name: str) -> Coordinates | None:
+        """The one place (3,) that bears a name, in the axes of the file, metres; ``None`` if none does, or several."""
+        places = self.named.get(folded(name))
+        if places is None or len(places) != 1:
+            return None
+        place: Coordinates = places[0].copy()
+        if not self.deep:
+            place[self.depth_axis] = np.nan
+        return place
+
     def corners(self) -> Coordinates:
         """(v, 3) vertices on the sheet."""
         corners = shapely.get_coordinates(self.work.lines, include_z=True)
@@ -80,9 +96,27 @@ def ground_of(drawing: Drawing) -> Ground | None:
     if not len(geometry):
         return None
     return Ground(
-        drawing=drawing, work=Linework.of(geometry), item=np.concatenate([lines.item, drawing.items.item[at]]),
+        named=_named(drawing, shapely.get_coordinates(drawing.items.geometry[at], include_z=True)), drawing=drawing, work=Linework.of(geometry), item=np.concatenate([lines.item, drawing.items.item[at]]),
         layer=np.concatenate([lines.layer, drawing.items.layer[at]]), deep=stands_in_space(geometry),
     )  # fmt: skip
+
+
+def _named(drawing: Drawing, points: Coordinates) -> dict[str, Coordinates]:
+    """Places by folded name: the place of an insert with such an attribute, or the only point at such a lettering."""
+    labels, metres = drawing.reading.labels, drawing.unit.metres or 1.0
+    if labels is None:
+        return {}
+    points = np.nan_to_num(points)
+    found: dict[str, list[Coordinates]] = defaultdict(list)
+    for text, place, block in zip(labels.text, labels.place, labels.block, strict=True):
+        if block:
+            found[folded(str(text))].append(place * metres)
+        elif len(points):
+            gap = np.linalg.norm(points - place, axis=1)
+            nearest = int(np.argmin(gap))
+            if gap[nearest] * metres <= _BESIDE:
+                found[folded(str(text))].append(points[nearest] * metres)
+    return {name: np.unique(places, axis=0) for name, places in found.items()}
 
 
 def _placed(geometry: Geometries) -> Flags:

@@ -12,7 +12,7 @@ import numpy as np
 
 from foparq.check.drawn.distance_ties import tie_distances
 from foparq.check.drawn.ground import Ground, ground_of
-from foparq.columns import Coordinates, Flags, Reals
+from foparq.columns import Coordinates, Flags, Reals, Texts
 from foparq.findings.ties import Lies, PointTies, Ties
 from foparq.match.causes import Cause, by_axes_or_unit, by_place_or_size
 from foparq.match.linework import NOTHING, footing
@@ -65,8 +65,10 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
     """Checkpoints held against drawings.
 
     A delivered point lies in a drawing if linework is not farther than ``near.tie`` and half the last printed digit of
-    its coordinates, in the axes that the drawing has: a drawing that does not stand in space says nothing of depths.
-    Without delivered coordinates the only vertex within ``near.search`` of the surveyed place is taken for the point.
+    its coordinates, in the axes that the drawing has: a drawing that does not stand in space says nothing of depths. So
+    is what bears its id: an insert with such an attribute, a point beside such a lettering. Without delivered
+    coordinates these are taken from what bears the id, else from the only vertex within ``near.search`` of the surveyed
+    place.
 
     Parameters
     ----------
@@ -88,25 +90,50 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
     within = np.full(n, near.tie + float(np.linalg.norm(points.printed)))
     for ground in grounds:
         absent, places = lies == Lies.ABSENT, points.delivered.copy()
-        places[untold & absent] = _only_vertices(ground, points.surveyed[untold & absent], near.search)
+        bearing = _bearing(points.id, ground)
+        by_name = untold & absent & np.isfinite(bearing).any(axis=1)
+        places[by_name] = bearing[by_name]
+        search = untold & absent & ~by_name
+        places[search] = _only_vertices(ground, points.surveyed[search], near.search)
         found = ground.footing(places, within)
         on = (found.line != NOTHING) & (found.distance < np.where(absent, np.inf, gap))
         gap = np.where(on | absent, np.minimum(gap, found.distance), gap)
         lies[on] = np.where(found.vertex[on] <= within[on], str(Lies.VERTEX), str(Lies.LINEWORK))
         lies[on & untold] = str(Lies.TAKEN_VERTEX)
+        names["item"][on], names["layer"][on] = ground.item[found.line[on]], ground.layer[found.line[on]]
+        apart = _apart(ground, places, bearing)
+        at_name = absent & ~on & (apart <= within)
+        lies[at_name], gap[at_name] = str(Lies.NAMED), apart[at_name]
+        lies[by_name] = str(Lies.TAKEN_NAMED)
+        on |= at_name | by_name
         delivered[on & untold] = places[on & untold]
         names["drawing"][on] = ground.drawing.path
-        names["item"][on], names["layer"][on] = ground.item[found.line[on]], ground.layer[found.line[on]]
         compared[on] = True
         compared[on, ground.depth_axis] = ground.deep
     absent = lies == Lies.ABSENT
-    seen: Flags = compared.any(axis=0)
+    seen: Flags = np.any(compared, axis=0)
     lies[absent & untold] = str(Lies.UNTOLD)
     cause, drawing = _cause(points.delivered, absent & ~untold, grounds, within)
     return PointTies(
         lies=lies, gap=gap, **names, delivered=delivered, group=repeats(points.surveyed, apart=near.apart),
         unchecked=~seen, cause=cause, near=drawing,
     )  # fmt: skip
+
+
+def _bearing(ids: Texts, ground: Ground) -> Coordinates:
+    """Places (n, 3) of the drawing that bear the ids of points, in the axes of the file; NaN where none does."""
+    places = np.full((len(ids), 3), np.nan)
+    for row, name in enumerate(ids):
+        if (place := ground.bearing(str(name))) is not None:
+            places[row] = place
+    return places
+
+
+def _apart(ground: Ground, places: Coordinates, bearing: Coordinates) -> Reals:
+    """Distances (n,) of places from those that bear their ids, in the axes that the drawing has; infinite without."""
+    step = ground.on_sheet(places) - ground.on_sheet(bearing)
+    gap: Reals = np.linalg.norm(step if ground.deep else step[:, :2], axis=1)
+    return np.where(np.isfinite(gap), gap, np.inf)
 
 
 def _only_vertices(ground: Ground, surveyed: Coordinates, radius: float) -> Coordinates:

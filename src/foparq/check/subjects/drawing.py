@@ -91,7 +91,10 @@ class DrawingSubject(Subject):
         """
         unit = self.drawing.unit
         if unit.metres is None:
-            return Doubt(Because.UNIT_UNKNOWN)
+            crs = (self.drawing.reading.crs,)
+            if unit.name == "degree":
+                return Doubt(Because.UNIT_ANGLE, crs)
+            return Doubt(Because.CRS_UNFIT, crs) if unit.header == "degree" else Doubt(Because.UNIT_UNKNOWN)
         doubted = [outcome for outcome in outcomes if outcome.name == _UNIT_RULE and outcome.status is Status.FAULTY]
         if doubted and unit.origin is not UnitOrigin.STATED:
             return Doubt(Because.UNIT_DOUBTFUL)

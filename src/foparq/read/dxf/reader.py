@@ -24,6 +24,7 @@ from foparq.read.dxf.facts import MalformedError, common_of
 from foparq.read.dxf.gather import Columns, LayerTable, LeftOut
 from foparq.read.dxf.items import place_contents
 from foparq.read.dxf.kinds import ANNOTATIONS, Unseen
+from foparq.read.dxf.labels import labels_of, scales_of
 from foparq.read.dxf.load import load_document
 from foparq.read.dxf.sketch import Builder, texts
 from foparq.read.dxf.structure import asked, layer_table, paper_entities
@@ -96,6 +97,8 @@ def _read(path: Path, limits: LimitsSpec, sagitta: float, unit: str | None, *, e
         bombs=_bombs(model, census, refused, builder),
         bad_names=tuple(name for name in names if doubly_encoded(name, encoding)),
         dimensions=_dimensions(builder.dimensions),
+        labels=labels_of(document),
+        scales=scales_of(document),
         layers=names,
         hidden_layers=tuple(name for name, hidden in zip(layers.names, layers.hidden, strict=True) if hidden),
     )

@@ -13,7 +13,7 @@ from foparq.units import LENGTHS, parse_length_unit
 
 _DEGREES = (180.0, 90.0)  #: farthest from zero that a longitude and a latitude can be
 _STEP = 100.0  #: metres on the projection: far above rounding, and (step / earth radius)^2 far below any use
-_NAMELESS = ("undefined", "unknown", "unnamed")  #: how programs name a system that they do not know
+_UNDEFINED = "undefined"  #: how GeoPackage names what is no system; any other name says what its axes say
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,7 +93,9 @@ def _said(text: str, bounds: tuple[float, float, float, float]) -> _Said:
         system = pyproj.CRS.from_user_input(text)
     except CRSError:
         return _Said(header=text[:40])
-    if system.name.casefold().startswith(_NAMELESS) or not system.axis_info:
+    if system.name.casefold().startswith(_UNDEFINED) or not system.axis_info:
+        return _Said()
+    if not system.axis_info[0].unit_conversion_factor:
         return _Said()
     if system.is_geographic:
         x, y = np.abs(np.nan_to_num(np.array(bounds).reshape(2, 2))).max(axis=0)
