@@ -2,7 +2,7 @@
 """Linework of a drawing as places of tables are held against it."""
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,7 +28,8 @@ class Ground:
     item: Texts  #: (m,)
     layer: Texts  #: (m,)
     deep: bool  #: it stands in space: depths are compared
-    named: Mapping[str, Coordinates]  #: places (k, 3) that bear a name, in the axes of the file, metres
+    points: Coordinates  #: (p, 3) of its points, in the axes of the file, drawing units
+    named: Mapping[str, Sequence[int]]  #: rows of its labels by folded name
 
     @property
     def metres(self) -> float:
@@ -62,14 +63,28 @@ class Ground:
         return footing(self.on_sheet(places), self.work, within=within, deep=self.deep)
 
     def bearing(self, name: str) -> Coordinates | None:
-        """The one place (3,) that bears a name, in the axes of the file, metres; ``None`` if none does, or several."""
-        places = self.named.get(folded(name))
-        if places is None or len(places) != 1:
+        """The one place (3,) that bears a name, in the axes of the file, metres; ``None`` if none does, or several.
+
+        An insert with such an attribute, or the nearest point beside such a lettering.
+        """
+        places = [self._borne(row) for row in self.named.get(folded(name), ())]
+        known = np.unique([place for place in places if place is not None], axis=0)
+        if len(known) != 1:
             return None
-        place: Coordinates = places[0].copy()
+        place: Coordinates = known[0] * self.metres
         if not self.deep:
             place[self.depth_axis] = np.nan
         return place
+
+    def _borne(self, row: int) -> Coordinates | None:
+        labels = self.drawing.reading.labels
+        if labels is None or labels.block[row]:
+            return None if labels is None else labels.place[row]
+        gap = np.linalg.norm(self.points - labels.place[row], axis=1)
+        beside: Coordinates | None = None
+        if len(gap) and gap.min() * self.metres <= _BESIDE:
+            beside = self.points[np.argmin(gap)]
+        return beside
 
     def corners(self) -> Coordinates:
         """(v, 3) vertices on the sheet."""
@@ -96,27 +111,19 @@ def ground_of(drawing: Drawing) -> Ground | None:
     if not len(geometry):
         return None
     return Ground(
-        named=_named(drawing, shapely.get_coordinates(drawing.items.geometry[at], include_z=True)), drawing=drawing, work=Linework.of(geometry), item=np.concatenate([lines.item, drawing.items.item[at]]),
+        drawing=drawing, work=Linework.of(geometry), item=np.concatenate([lines.item, drawing.items.item[at]]),
         layer=np.concatenate([lines.layer, drawing.items.layer[at]]), deep=stands_in_space(geometry),
+        points=np.nan_to_num(shapely.get_coordinates(drawing.items.geometry[at], include_z=True)),
+        named=_rows_by_name(drawing),
     )  # fmt: skip
 
 
-def _named(drawing: Drawing, points: Coordinates) -> dict[str, Coordinates]:
-    """Places by folded name: the place of an insert with such an attribute, or the only point at such a lettering."""
-    labels, metres = drawing.reading.labels, drawing.unit.metres or 1.0
-    if labels is None:
-        return {}
-    points = np.nan_to_num(points)
-    found: dict[str, list[Coordinates]] = defaultdict(list)
-    for text, place, block in zip(labels.text, labels.place, labels.block, strict=True):
-        if block:
-            found[folded(str(text))].append(place * metres)
-        elif len(points):
-            gap = np.linalg.norm(points - place, axis=1)
-            nearest = int(np.argmin(gap))
-            if gap[nearest] * metres <= _BESIDE:
-                found[folded(str(text))].append(points[nearest] * metres)
-    return {name: np.unique(places, axis=0) for name, places in found.items()}
+def _rows_by_name(drawing: Drawing) -> dict[str, list[int]]:
+    """Rows of the labels of a drawing by folded name."""
+    found: dict[str, list[int]] = defaultdict(list)
+    for row, text in enumerate(drawing.reading.labels.text if drawing.reading.labels else ()):
+        found[folded(str(text))].append(row)
+    return found
 
 
 def _placed(geometry: Geometries) -> Flags:
