@@ -36,8 +36,8 @@ def tie_distances(
 
     An end is a point of a drawing if the table gives its coordinates and linework lies there, or if its name is the id
     of a checkpoint that lies in a drawing, or borne by one place there. The delivered length must be that between the
-    ends, or that in the plane where the drawing is flat, but for ``2 tie`` and the printed digits. Where the ends are names only, a drawing must
-    be able to hold the length.
+    ends, or that in the plane where the drawing is flat, but for ``2 tie`` and the printed digits. Where the ends are
+    names only, a drawing must be able to hold the length.
 
     Parameters
     ----------
