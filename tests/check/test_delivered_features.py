@@ -155,7 +155,8 @@ def test_coordinates_that_are_no_numbers_stop_nothing() -> None:
     geometry = thing.items.geometry.copy()
     with np.errstate(invalid="ignore"):
         geometry[:2] = shapely.linestrings([[[np.nan, 0], [1, 1]], [[0, 0], [np.inf, 1]]])
-    assert interval(replace(thing, items=replace(thing.items, geometry=geometry))) == (18, 18, 18)
+        geometry[2] = shapely.LineString([(-1e308, 0), (1e308, 1e308)])
+    assert interval(replace(thing, items=replace(thing.items, geometry=geometry))) == (17, 17, 17)
 
 
 # --- names, drawings, hidden layers ----------------------------------------------------------------------------------

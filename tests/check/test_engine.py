@@ -124,6 +124,40 @@ def test_what_cannot_be_a_line_is_counted_as_skipped_and_found_invalid() -> None
     assert (outcome(checked, "free-end").checked, outcome(checked, "free-end").skipped) == (1, 2)
 
 
+def test_an_item_beyond_all_distances_is_set_aside_and_changes_nothing_for_others() -> None:
+    rules = ("undershoot", "duplicate", "self-intersection", "area-overlap")
+    sound = check(drawing(T_JUNCTION_4MM_SHORT), *rules)
+    for far in ("LINESTRING (9 9, 1e308 9)", "LINESTRING (9 9, -1e308 1e308)", "LINESTRING (9 9, 9 -1e200)"):
+        checked = check(drawing([*T_JUNCTION_4MM_SHORT, far]), *rules)
+        assert not checked.log
+        assert checked.findings.key.tolist() == sound.findings.key.tolist()
+        (aside,) = outcome(checked, "undershoot").aside
+        assert (aside.item, aside.open) == ("13", True), "nobody judged it: whether it is sound stays open"
+
+
+@pytest.mark.parametrize("plane", ["xy", "xz", "fit"])
+@pytest.mark.parametrize("where", [-1e20, 1e20, -1e100, -1e14])
+def test_an_item_absurdly_far_away_costs_others_no_digits(plane: str, where: float) -> None:
+    upright = [shape.replace("(", "Z (").replace(",", " 0,").replace(")", " 0)") for shape in T_JUNCTION_4MM_SHORT]
+    if plane != "xy":
+        flat = [shapely.get_coordinates(shapely.from_wkt(shape)) for shape in T_JUNCTION_4MM_SHORT]
+        upright = [shapely.LineString([(x, 0, y) for x, y in way]).wkt for way in flat]
+    far = [f"LINESTRING Z (9 0 9, {where} 0 9)", f"LINESTRING Z (9 0 9, 9 {where} {where})"]
+    alone = check(drawing(upright, plane=plane), "undershoot", "duplicate").findings
+    table = check(drawing([*upright, *far], plane=plane), "undershoot", "duplicate").findings
+    assert [(row, size) for row, size in zip(table.item, table.size, strict=True) if row in {"10", "11", "12"}] == [
+        (row, pytest.approx(size)) for row, size in zip(alone.item, alone.size, strict=True)
+    ]
+
+
+def test_a_line_in_space_too_short_to_be_squared_has_a_place() -> None:
+    checked = check(drawing(["LINESTRING Z (0 0 4.7, 1e-310 2e-310 4.7)", "LINESTRING Z (5 5 4.7, 6 5 4.7)"]))
+    assert not checked.log
+    assert outcome(checked, "zero-length").faulty.tolist() == [0]
+    at = shapely.get_coordinates(checked.findings.where, include_z=True)[checked.findings.name == "zero-length"]
+    assert at[0] == pytest.approx([0, 0, 4.7])
+
+
 def test_without_a_unit_no_rule_with_a_length_runs() -> None:
     checked = check(drawing(T_JUNCTION_4MM_SHORT, unit=DrawingUnit(metres=None, name="", origin=UnitOrigin.UNKNOWN)))
     for found in checked.outcomes:

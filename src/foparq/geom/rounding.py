@@ -12,6 +12,8 @@ from foparq.columns import Reals
 ROUNDING = 5e-9
 #: metres; no place of a drawing is farther from the origin of any grid on Earth
 EARTH = 1e8
+#: metres; the square of a longer distance may be no finite number
+FARTHEST = 1e150
 
 
 def origin_of(coordinates: Reals) -> Reals:

@@ -8,6 +8,7 @@ import shapely
 
 from foparq.columns import Coordinates, Geometries, Reals
 from foparq.errors import ManifestError
+from foparq.geom.rounding import EARTH
 
 _NAMED = {
     "xy": ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
@@ -77,6 +78,7 @@ def plane_of(stated: str | tuple[tuple[float, float, float], ...] | None, geomet
     -------
     Plane
         For a named plane the origin is the rounded lower corner of the items, so that large coordinates lose no digits.
+        Vertices that lie absurdly far from most others have no say.
 
     Raises
     ------
@@ -110,7 +112,11 @@ def _vertices(geometry: Geometries) -> Coordinates:
     points[~np.isfinite(points[:, 2]), 2] = 0.0
     finite = np.isfinite(points[:, 0]) & np.isfinite(points[:, 1])
     kept: Coordinates = points if finite.all() else points[finite]
-    return kept
+    if not len(kept):
+        return kept
+    with np.errstate(over="ignore"):  # a difference that is no number is far
+        near = (np.abs(kept - np.median(kept, axis=0)) <= EARTH).all(axis=1)
+    return kept if near.all() else kept[near]
 
 
 def _fitted(points: Coordinates) -> Plane:

@@ -13,6 +13,7 @@ import shapely
 from foparq.check.layers import matching
 from foparq.columns import Coordinates, Flags, Geometries, Index, Texts
 from foparq.geom.areas import measurable
+from foparq.geom.rounding import FARTHEST
 from foparq.model.drawing import Drawing
 from foparq.model.inputs import Areas, Features, Lines, Named
 from foparq.model.items import Role
@@ -119,9 +120,9 @@ class Columns:
 
     def _lines(self, on: Index) -> Lines:
         geometry = self.geometry[on]
-        kind, finite = shapely.get_type_id(geometry), _finite(geometry)
-        single = on[np.isin(kind, [_LINE_STRING, _LINEAR_RING]) & finite & (shapely.get_num_points(geometry) > 1)]
-        surfaces = on[(kind == _POLYGON) & finite & ~shapely.is_empty(geometry)]
+        kind, near = shapely.get_type_id(geometry), _measurable(geometry)
+        single = on[np.isin(kind, [_LINE_STRING, _LINEAR_RING]) & near & (shapely.get_num_points(geometry) > 1)]
+        surfaces = on[(kind == _POLYGON) & near & ~shapely.is_empty(geometry)]
         rings, owner = shapely.get_rings(self.geometry[surfaces], return_index=True)
         # A hole without vertices is no line.
         there = shapely.get_num_points(rings) > 1
@@ -138,23 +139,24 @@ class Columns:
 
     def _areas(self, on: Index) -> Areas:
         shapes = self.geometry[on].copy()
-        finite = _finite(shapes)
-        lines = np.flatnonzero(self.bounding[on] & finite & (shapely.get_num_points(shapes) >= _RING_VERTICES))
+        near = _measurable(shapes)
+        lines = np.flatnonzero(self.bounding[on] & near & (shapely.get_num_points(shapes) >= _RING_VERTICES))
         for n in lines[shapely.is_closed(shapes[lines])]:
             shapes[n] = shapely.Polygon(shapely.get_coordinates(shapes[n]))
-        rows = np.flatnonzero((shapely.get_type_id(shapes) == _POLYGON) & finite & ~shapely.is_empty(shapes))
+        rows = np.flatnonzero((shapely.get_type_id(shapes) == _POLYGON) & near & ~shapely.is_empty(shapes))
         covered, there = measurable(shapely.force_2d(shapes[rows]))
         rows = rows[there]
         return Areas(geometry=covered[there], **self._named(on[rows]))
 
 
-def _finite(geometry: Geometries) -> Flags:
-    """(n,) whether every coordinate is a finite number; an empty geometry has none that is not.
+def _measurable(geometry: Geometries) -> Flags:
+    """(n,) whether distances can be computed with every coordinate; an empty geometry has none that hinders.
 
     A depth that is missing reads as NaN, and is none.
     """
     coordinates, index = shapely.get_coordinates(geometry, include_z=True, return_index=True)
-    finite = np.ones(len(geometry), dtype=bool)
-    finite[index[~np.isfinite(coordinates[:, :2]).all(axis=1) | np.isinf(coordinates[:, 2])]] = False
-    finite[shapely.is_missing(geometry)] = False
-    return finite
+    near = np.ones(len(geometry), dtype=bool)
+    size = np.abs(coordinates)
+    near[index[~(size[:, :2] <= FARTHEST).all(axis=1) | (size[:, 2] > FARTHEST)]] = False
+    near[shapely.is_missing(geometry)] = False
+    return near

@@ -18,6 +18,7 @@ from foparq.columns import Geometries, Index
 from foparq.findings.counts import FeatureCounts
 from foparq.geom.clusters import clusters
 from foparq.geom.hulls import across, hulls_of, outermost
+from foparq.geom.rounding import FARTHEST
 from foparq.model.drawing import Drawing
 from foparq.model.items import Role, holders_of
 
@@ -178,10 +179,11 @@ def _in_plane(drawing: Drawing, rows: Index) -> tuple[Index, Geometries]:
     geometry = drawing.items.geometry[rows]
     coordinates, index = shapely.get_coordinates(geometry, include_z=True, return_index=True)
     coordinates[:, 2] = np.nan_to_num(coordinates[:, 2])
-    finite = np.ones(len(rows), dtype=bool)
-    finite[index[~np.isfinite(coordinates).all(axis=1)]] = False
-    sheet = drawing.plane.project(coordinates[finite[index]], drawing.unit.metres or 1.0)[:, :2]
-    return rows[finite], shapely.set_coordinates(shapely.force_2d(geometry[finite]), sheet)
+    with np.errstate(invalid="ignore", over="ignore"):  # coordinates may be anything
+        sheet = drawing.plane.project(coordinates, drawing.unit.metres or 1.0)[:, :2]
+    there = np.ones(len(rows), dtype=bool)
+    there[index[~(np.abs(sheet) <= FARTHEST).all(axis=1)]] = False
+    return rows[there], shapely.set_coordinates(shapely.force_2d(geometry[there]), sheet[there[index]])
 
 
 def _tally(flat: Geometries, places: Sequence[_Place], gap: float) -> Counted:

@@ -177,8 +177,12 @@ def _with_depth(found: Hits, geometry: Geometries) -> Geometries:
     if not len(flat):
         return found.where
     places = found.where.copy()
-    point = shapely.points(place_on(places[flat])[:, :2])
-    at = shapely.line_interpolate_point(_as_lines(on[flat]), shapely.line_locate_point(_as_lines(on[flat]), point))
+    point, lines = shapely.points(place_on(places[flat])[:, :2]), _as_lines(on[flat])
+    # GEOS divides by squares of lengths: a line that is too short for that has its first depth.
+    along = np.zeros(len(lines))
+    long = shapely.length(lines) ** 2 > 0
+    along[long] = shapely.line_locate_point(lines[long], point[long])
+    at = shapely.line_interpolate_point(lines, along)
     depth = np.nan_to_num(shapely.get_z(at))
     for n, z in zip(flat.tolist(), depth.tolist(), strict=True):
         places[n] = shapely.force_3d(places[n], z)
