@@ -52,7 +52,7 @@ from foparq.resources import shipped
 
 SEED = 20_260
 #: every how many cases of a kind one is audited by the command, twice, with all reports
-FULL = 16
+FULL = 40
 #: exit codes that say something about the input
 ANSWERS = frozenset({0, 1, 2, 3, 4})
 _MEMORY = 4_000_000_000  #: bytes of a process that runs cases
