@@ -27,3 +27,24 @@ def test_the_changes_are_mild() -> None:
     assert sum(one.read for one in every) > CASES / 2, f"most are to be read\n{summary(every)}"
     assert sum(one.reached for one in every) > CASES / 2, f"most are to reach the rules\n{summary(every)}"
     assert {one.exit for one in every} == {0, 1, 2, 3, 4}, "every kind of answer is to be met"
+
+
+def in_process(code: int) -> Result:
+    """A drawing among the cases that is not audited by the command."""
+    return next(one for one in results(0) if one.kind.startswith("dxf") and one.exit == code and not one.full)
+
+
+def test_a_crash_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    def crashing(*_: object) -> None:
+        raise ValueError("planted")
+
+    case = in_process(0).case
+    monkeypatch.setattr("foparq.read.delivery.read_drawing", crashing)
+    assert any("planted" in trace for trace in outcome(case).wrong)
+
+
+def test_a_dishonest_answer_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    case = in_process(4).case
+    monkeypatch.setattr("foparq.evaluate.conclusion.lost_files", lambda _: [])
+    monkeypatch.setattr("foparq.evaluate.conclusion._unseen", lambda _: [])
+    assert any("refused" in why for why in outcome(case).wrong)

@@ -38,7 +38,7 @@ from foparq.audit import Audit, audit, check_files
 from foparq.check.bounds import unbounded
 from foparq.cli.main import run
 from foparq.cli.show import show
-from foparq.errors import InputError, UsageError, WriteError
+from foparq.errors import FoparqError, InputError, UsageError, WriteError
 from foparq.evaluate.exit_of import exit_of
 from foparq.evaluate.quality import Verdict
 from foparq.exits import exit_of_error
@@ -146,7 +146,7 @@ def _called(function: Callable[..., Any], *args: Any, **_: Any) -> Any:
     """As a child process would answer: what is no error of foparq's own is a crash."""
     try:
         return function(*args)
-    except (UsageError, InputError, WriteError):
+    except FoparqError:
         raise
     except Exception:  # noqa: BLE001 - as above
         raise RuntimeError(traceback.format_exc()) from None
@@ -211,19 +211,12 @@ def _doubts(done: Audit) -> Iterator[str]:
         if source.status in LOST:
             yield f"{source.path} is {source.status}"
         yield from (f"{one.kind} was skipped: {one.reason}" for one in source.skipped if one.reason.opens)
-    counted = {name for spec in _elements(done) for name in spec}
+    counted = {name for element in record.quality.elements if element.required for name, *_ in element.details}
     for one in record.outcomes:
         if one.because.opens and (record.loose or (one.name in counted and not one.preview)):
             yield f"{one.name} did not run: {one.because}"
         if record.loose and any(item.open for item in one.aside):
             yield f"{one.name} could not judge {one.aside}"
-
-
-def _elements(done: Audit) -> Iterator[Sequence[str]]:
-    """Rules that required elements count."""
-    for element in done.record.quality.elements:
-        if element.required and element.id == "Q3":
-            yield [name for name, _, _ in element.details]
 
 
 # --- by the command, with all reports ---------------------------------------------------------------------------------
