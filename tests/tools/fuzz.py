@@ -56,7 +56,7 @@ FULL = 40
 #: exit codes that say something about the input
 ANSWERS = frozenset({0, 1, 2, 3, 4})
 _MEMORY = 4_000_000_000  #: bytes of a process that runs cases
-_SECONDS = 120  #: of one case
+_SECONDS = 60  #: of the processor, for one case
 _CHUNK = 100  #: cases of one process
 _FORMS = ("text", "concise", "json", "jsonl", "csv")
 
@@ -292,7 +292,7 @@ def _bounded(numbers: Sequence[int], base: int, keep: Path | None) -> Iterator[R
                 resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, resource.RLIM_INFINITY))
                 with os.fdopen(into, "w", encoding="utf-8") as pipe:
                     for number in left:
-                        signal.alarm(_SECONDS)  # its default action ends the process, wherever it hangs
+                        signal.setitimer(signal.ITIMER_PROF, _SECONDS)  # ends the process wherever it hangs
                         print(json.dumps(asdict(outcome(number, base, keep))), file=pipe, flush=True)
                 code = 0
             finally:
