@@ -363,7 +363,7 @@ def insert(pairs: list[Pair], rng: Rng) -> list[Pair]:
     code = pick(rng, (2, 2, 41, 42, 43, 44, 45, 50, 70, 71))
     if code == 2:
         return _with(pairs, name, (2, pick(rng, ("PORTA", "PAR", "NADA", "*Model_Space", "*Paper_Space", "*U1", ""))))
-    value = pick(rng, NUMBERS) if chance(rng, 0.4) else pick(rng, ("0", "-2", "1", "1000", "1e-9", "0.5", "32767"))
+    value = pick(rng, NUMBERS) if chance(rng, 0.4) else pick(rng, ("0", "-2", "1", "1000", "1e-9", "0.5", "300"))
     return [*pairs[: name + 1], (code, value), *pairs[name + 1 :]]
 
 
