@@ -5,7 +5,6 @@ import traceback
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -20,7 +19,7 @@ from foparq.check.drawn.ties import Nearness, tie_evidence
 from foparq.check.drawn.witnesses import with_witnesses
 from foparq.check.run import check_part
 from foparq.check.validate import validate_checks
-from foparq.errors import ManifestError, UnsafeError
+from foparq.errors import ManifestError
 from foparq.evaluate.evaluate import evaluate
 from foparq.evaluate.evidence import Evidence
 from foparq.findings.because import Because
@@ -28,10 +27,10 @@ from foparq.findings.counts import FeatureCounts
 from foparq.findings.table import Severity, join_findings
 from foparq.findings.ties import Ties
 from foparq.model.delivery import Delivery
+from foparq.model.drawing import Drawing
 from foparq.profile.load import load_manifest, load_profile
 from foparq.profile.schema import Profile
 from foparq.read.delivery import read_delivery, read_loose
-from foparq.read.guard.parent import guarded
 from foparq.read.guard.stream import Stopped, streamed
 from foparq.read.versions import reader_versions
 from foparq.report.files import Written, writable, write_reports
@@ -225,13 +224,25 @@ def _in_child(function: Callable[..., Iterator[object]], args: tuple[Any, ...], 
 def _counted(delivery: Delivery, gap: float, profile: Profile) -> tuple[FeatureCounts | None, Broken | None]:
     """Delivered features, or why their count broke off."""
     seconds = sum(budget_of(part, profile.limits, 0.0).seconds for part in delivery.parts) or 1.0
+    memory = profile.limits.check_memory
+    count, broken = None, None
+    for thing in streamed(_count, (delivery.drawings, gap), seconds=seconds, at_once=seconds, memory=memory):
+        if isinstance(thing, Stopped):
+            broken = Broken(Because.LIMIT) if thing.spent else Broken(Because.CRASHED, thing.words)
+        elif isinstance(thing, Broken):
+            broken = thing
+        elif isinstance(thing, FeatureCounts):
+            count = thing
+    return (None if broken else count), broken
+
+
+def _count(drawings: Sequence[Drawing], gap: float) -> Iterator[object]:
     try:
-        count = partial(count_features, gap=gap)
-        return guarded(count, delivery.drawings, file="", seconds=seconds, memory=profile.limits.check_memory), None
-    except UnsafeError:
-        return None, Broken(Because.LIMIT)
+        yield count_features(drawings, gap=gap)
+    except MemoryError:
+        raise
     except Exception:  # noqa: BLE001 - a crash is ours: elements that need the counts are undecided
-        return None, Broken(Because.CRASHED, f"counting features\n{traceback.format_exc()}")
+        yield Broken(Because.CRASHED, f"counting features\n{traceback.format_exc()}")
 
 
 def _tied(delivery: Delivery, profile: Profile, scale: float | None) -> tuple[Ties | None, Broken | None]:

@@ -35,7 +35,6 @@ from tests.tools.fuzz_edits import Files, Rng, chance, mutant, pick
 from tests.tools.fuzz_seeds import KINDS, Seed, seeds
 
 from foparq.audit import Audit, audit, check_files
-from foparq.check.bounds import unbounded
 from foparq.cli.main import run
 from foparq.cli.show import show
 from foparq.errors import FoparqError, InputError, UsageError, WriteError
@@ -152,13 +151,16 @@ def _called(function: Callable[..., Any], *args: Any, **_: Any) -> Any:
         raise RuntimeError(traceback.format_exc()) from None
 
 
+def _streamed(function: Callable[..., Iterator[object]], args: tuple[Any, ...], **_: Any) -> Iterator[object]:
+    return function(*args)
+
+
 @contextlib.contextmanager
 def unguarded() -> Iterator[None]:
     """Reading and checking in this process: child processes cost more than small drawings."""
     with (
         mock.patch("foparq.read.delivery.guarded", _called),
-        mock.patch("foparq.audit.guarded", _called),
-        mock.patch("foparq.audit._in_child", unbounded),
+        mock.patch("foparq.audit.streamed", _streamed),
         warnings.catch_warnings(),
     ):
         warnings.simplefilter("ignore")
