@@ -5,9 +5,10 @@ import traceback
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar, cast
 
 import numpy as np
 import shapely
@@ -27,7 +28,6 @@ from foparq.findings.counts import FeatureCounts
 from foparq.findings.table import Severity, join_findings
 from foparq.findings.ties import Ties
 from foparq.model.delivery import Delivery
-from foparq.model.drawing import Drawing
 from foparq.profile.load import load_manifest, load_profile
 from foparq.profile.schema import Profile
 from foparq.read.delivery import read_delivery, read_loose
@@ -41,6 +41,7 @@ MANIFEST = "delivery.toml"
 OUT = "audit"  #: folder of the reports, beside the manifest
 
 Progress = Callable[[str], None]
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -221,43 +222,50 @@ def _in_child(function: Callable[..., Iterator[object]], args: tuple[Any, ...], 
             yield thing
 
 
-def _counted(delivery: Delivery, gap: float, profile: Profile) -> tuple[FeatureCounts | None, Broken | None]:
-    """Delivered features, or why their count broke off."""
-    seconds = sum(budget_of(part, profile.limits, 0.0).seconds for part in delivery.parts) or 1.0
-    memory = profile.limits.check_memory
-    count, broken = None, None
-    for thing in streamed(_count, (delivery.drawings, gap), seconds=seconds, at_once=seconds, memory=memory):
-        if isinstance(thing, Stopped):
-            broken = Broken(Because.LIMIT) if thing.spent else Broken(Because.CRASHED, thing.words)
-        elif isinstance(thing, Broken):
-            broken = thing
-        elif isinstance(thing, FeatureCounts):
-            count = thing
-    return (None if broken else count), broken
-
-
-def _count(drawings: Sequence[Drawing], gap: float) -> Iterator[object]:
-    try:
-        yield count_features(drawings, gap=gap)
-    except MemoryError:
-        raise
-    except Exception:  # noqa: BLE001 - a crash is ours: elements that need the counts are undecided
-        yield Broken(Because.CRASHED, f"counting features\n{traceback.format_exc()}")
-
-
 def _tied(delivery: Delivery, profile: Profile, scale: float | None) -> tuple[Ties | None, Broken | None]:
     """What of the tables belongs to the drawings, or why the search broke off."""
     if profile.evidence is None:
         return None, None
     near = Nearness(**{name: getattr(profile.evidence, name).si(scale) for name in Nearness._fields})
+    ties, broken = _once("tying evidence", tie_evidence, (delivery, near), delivery, profile)
+    return (Ties(broken=broken.because) if broken else ties), broken
+
+
+def _counted(delivery: Delivery, gap: float, profile: Profile) -> tuple[FeatureCounts | None, Broken | None]:
+    """Delivered features, or why their count broke off."""
+    return _once("counting features", partial(count_features, gap=gap), (delivery.drawings,), delivery, profile)
+
+
+def _once(
+    what: str, function: Callable[..., T], args: tuple[Any, ...], delivery: Delivery, profile: Profile
+) -> tuple[T | None, Broken | None]:
+    """Result of one function within the bounds of the profile for rules, or why it broke off.
+
+    Parameters
+    ----------
+    what : str
+        Heads the log if it crashes.
+    """
     seconds = sum(budget_of(part, profile.limits, 0.0).seconds for part in delivery.parts) or 1.0
+    result: T | None = None
+    for thing in streamed(
+        _made, (what, function, args), seconds=seconds, at_once=seconds, memory=profile.limits.check_memory
+    ):
+        if isinstance(thing, Stopped):
+            return None, Broken(Because.LIMIT) if thing.spent else Broken(Because.CRASHED, thing.words)
+        if isinstance(thing, Broken):
+            return None, thing
+        result = cast("T", thing)
+    return result, None
+
+
+def _made(what: str, function: Callable[..., T], args: tuple[Any, ...]) -> Iterator[T | Broken]:
     try:
-        tie = partial(tie_evidence, near=near)
-        return guarded(tie, delivery, file="", seconds=seconds, memory=profile.limits.check_memory), None
-    except UnsafeError:
-        return Ties(broken=Because.LIMIT), Broken(Because.LIMIT)
-    except Exception:  # noqa: BLE001 - a crash is ours: elements that need the ties are undecided
-        return Ties(broken=Because.CRASHED), Broken(Because.CRASHED, f"tying evidence\n{traceback.format_exc()}")
+        yield function(*args)
+    except MemoryError:
+        raise
+    except Exception:  # noqa: BLE001 - a crash is ours: elements that need the result are undecided
+        yield Broken(Because.CRASHED, f"{what}\n{traceback.format_exc()}")
 
 
 def versions() -> dict[str, str]:
