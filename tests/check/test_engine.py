@@ -580,3 +580,12 @@ def test_memory_that_runs_out_is_a_limit_and_no_crash(monkeypatch: pytest.Monkey
     monkeypatch.setattr(engine, "all_rules", lambda: rules)
     checked = check(drawing(POST_TWICE), "duplicate")
     assert (outcome(checked, "duplicate").because, checked.log) == (Because.LIMIT, ())
+
+
+def test_one_rising_line_among_many_does_not_turn_a_drawing() -> None:
+    many = [f"LINESTRING ({n} 0, {n} 5)" for n in range(200)]
+    rising = "LINESTRING Z (0 9 0, 1 9 1000)"
+    checked = check(drawing([*many, rising]), "undershoot")
+    assert outcome(checked, "undershoot").because is Because.RAN
+    few = check(drawing([*many[:20], rising]), "undershoot")
+    assert outcome(few, "undershoot").because in {Because.PLANE_DOUBTFUL, Because.PLANE_CONTRADICTED}
