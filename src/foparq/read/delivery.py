@@ -34,7 +34,9 @@ from foparq.read.intake import (
     take_companions,
     take_manifest,
     take_once,
+    take_profile,
     take_unnamed,
+    take_unused,
 )
 from foparq.read.raw import RawDrawing
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
@@ -50,6 +52,7 @@ def read_delivery(
     *,
     profile: Profile,
     scale: float | None,
+    unused: Path | None = None,
     progress: Progress | None = None,
 ) -> tuple[Delivery, tuple[str, ...]]:
     """Everything that a manifest names, and what else lies in the folder.
@@ -64,6 +67,8 @@ def read_delivery(
         Its limits and its way of reading hold.
     scale : float, optional
         Denominator k of the drawing scale 1:k, for a sagitta at scale.
+    unused : Path, optional
+        Profile that the manifest names and the reviewer's goes before: hashed and listed.
     progress : callable, optional
         Told the name of each file before it is read.
 
@@ -86,6 +91,9 @@ def read_delivery(
     sweep()
     if manifest_name:
         take_manifest(intake, root, manifest_name)
+    take_profile(intake, root)
+    if unused is not None:
+        take_unused(intake, root, unused)
     for section in manifest.drawing:
         _drawing(intake, section, shown_path(section.path), partial(inside, root, section.path))
     checkpoints = _table(intake, root, "checkpoints", manifest.checkpoints, read_checkpoints)
@@ -135,6 +143,7 @@ def read_loose(
         name = name_of(path.as_posix())
         section = DrawingSection.model_validate({"path": name, "unit": unit, "plane": plane, "areas": areas})
         _drawing(intake, section, name, path.resolve)
+    take_profile(intake, Path())
     return Delivery(title="", sources=tuple(intake.sources), parts=tuple(intake.drawings)), tuple(intake.crashes)
 
 

@@ -12,9 +12,7 @@ from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters
 from foparq.model.tables import Checkpoints
-from foparq.profile.elements import AbsoluteSpec
-
-AXES = ("X", "Y", "Z")
+from foparq.profile.elements import AXES, AbsoluteSpec
 
 
 @evaluates(AbsoluteSpec, measure="39")

@@ -10,12 +10,11 @@ from foparq.accuracy.moments import Moments, moments
 from foparq.accuracy.normality import anderson_darling
 from foparq.accuracy.student import StudentTest, sign_test, student_test
 from foparq.columns import Reals
-from foparq.evaluate.elements.absolute import AXES
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
 from foparq.model.tables import Checkpoints
-from foparq.profile.elements import TrendSpec
+from foparq.profile.elements import AXES, TrendSpec
 
 _MEASURE = "foparq:trend"
 _FEWEST = 3  #: two differences have one degree of freedom: hardly any trend would show

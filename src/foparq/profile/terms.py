@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: MIT
+"""Under which specification and at which scale a delivery is audited, and who says so.
+
+A manifest and a profile in the delivery's folder are the producer's words. What the reviewer states goes before them.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from foparq.errors import ManifestError, ProfileError, UsageError
+from foparq.profile.find import find_profile, shipped_profiles
+from foparq.profile.load import load_profile
+from foparq.profile.looser import Looser, looser
+from foparq.profile.manifest import Manifest
+from foparq.profile.schema import Profile
+from foparq.units import parse_scale
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reviewer:
+    """What the reviewer states on the command line."""
+
+    profile: str | None = None  #: a shipped name, or a path that may lead anywhere
+    scale: str | None = None  #: ``"1:50"``
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Replaced:
+    """A statement of the delivery that one of the reviewer goes before."""
+
+    what: Literal["profile", "scale"]
+    reviewer: str
+    delivery: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Terms:
+    """What a run is made under."""
+
+    profile: Profile
+    scale: float | None  #: denominator k of 1:k
+    compared: str = ""  #: name of the shipped profile that one of one's own is compared with
+    looser: tuple[Looser, ...] = ()  #: where that profile is looser
+    replaced: tuple[Replaced, ...] = ()
+    unused: Path | None = None  #: profile of the delivery's own, in its folder, that the reviewer's goes before
+
+
+def terms_of(manifest: Manifest, path: Path, reviewer: Reviewer) -> Terms:
+    """Terms of an audit.
+
+    Parameters
+    ----------
+    manifest : Manifest
+    path : Path
+        Its file. A profile that it names is shipped, or lies in the folder of that file, and so does what it extends.
+    reviewer : Reviewer
+
+    Raises
+    ------
+    UsageError
+        If a profile cannot be used, nobody states a scale, or one and the same side states two.
+    """
+    root, named = path.parent, manifest.delivery.profile
+    used = load_profile(named, root, root) if reviewer.profile is None else load_profile(reviewer.profile)
+    replaced, unused = [], None
+    if reviewer.profile is not None and "profile" in manifest.delivery.model_fields_set:
+        delivered = _delivered(named, root)
+        if delivered is None or delivered.sha256 != used.sha256:
+            replaced.append(Replaced(what="profile", reviewer=used.name, delivery=named))
+            unused = _own_file(named, root)
+    scale, other = _scales(manifest, path, used, reviewer)
+    if other is not None and parse_scale(other) != scale:
+        replaced.append(Replaced(what="scale", reviewer=f"1:{scale:g}", delivery=other))
+    compared = None if used.shipped else _counterpart(used)
+    return Terms(
+        profile=used, scale=scale, replaced=tuple(replaced), unused=unused,
+        compared=compared.name if compared else "",
+        looser=looser(used, compared, scale) if compared else (),
+    )  # fmt: skip
+
+
+def _scales(manifest: Manifest, path: Path, used: Profile, reviewer: Reviewer) -> tuple[float, str | None]:
+    """Scale that holds, and what the delivery says where the reviewer states one."""
+    delivery = manifest.delivery.scale
+    theirs, ours = (used.scale, None) if reviewer.profile is None else (None, used.scale)
+    if reviewer.scale and ours and parse_scale(reviewer.scale) != parse_scale(ours):
+        raise UsageError("usage.scale-differs", value=reviewer.scale, other=ours, file=used.path)
+    if stated := reviewer.scale or ours:
+        return parse_scale(stated), delivery or theirs
+    if delivery and theirs and parse_scale(delivery) != parse_scale(theirs):
+        raise ManifestError("manifest.scale-differs", file=str(path), value=delivery, other=theirs)
+    if (found := delivery or theirs) is None:
+        raise ManifestError("manifest.no-scale", file=str(path), line=1, key="delivery.scale", example='scale = "1:50"')
+    return parse_scale(found), None
+
+
+def _counterpart(profile: Profile) -> Profile:
+    """Shipped profile that one of one's own is compared with.
+
+    The one that it extends, if that is of the same class of product; else the first shipped one of that class. A file
+    of one's own is no measure for another.
+    """
+    names = [*(name for name in [profile.extends] if name in shipped_profiles()), *shipped_profiles()]
+    known = [load_profile(name) for name in names]
+    return next((one for one in known if one.product_class == profile.product_class), known[0])
+
+
+def _delivered(name: str, root: Path) -> Profile | None:
+    """Profile that the delivery names; ``None`` if it cannot be used, which then does not matter."""
+    try:
+        return load_profile(name, root, root)
+    except ProfileError:
+        return None
+
+
+def _own_file(name: str, root: Path) -> Path | None:
+    try:
+        return find_profile(name, root, root) if name.endswith(".toml") else None
+    except ProfileError:
+        return None
