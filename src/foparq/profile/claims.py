@@ -29,6 +29,7 @@ _PAIRS = (("rn", "m"), ("vv", "w"), ("cl", "d"))  #: two letters that are read a
 _OWN_WORD = 6  #: letters of a word that is a specification's own, such as "FOPARQ"
 _LIKE = 0.9  #: share of letters in common with which two texts are read as the same
 _EXAMPLES = {"name": 'name = "caderno-da-obra"', "title": 'title.pt-BR = "Caderno de encargos da obra"'}
+_LONGEST = 200  #: letters of a name or title: it stands in the first lines of every report
 _SHOWN = 80  #: letters of a wrong value that a message repeats
 
 
@@ -95,9 +96,13 @@ def refuse_false_claims(text: TomlText) -> None:
     ProfileError
         Which shows the value, what it could be taken for, and a right example.
     """
-    title = text.data.get("title")
-    titles = title.items() if isinstance(title, dict) else ()
-    said = [(("name",), text.data.get("name")), *((("title", language), value) for language, value in titles)]
+    title = text.data.get("title", {})
+    if not isinstance(title, dict):
+        place = {"file": str(text.path), "line": text.line(("title",))}
+        raise ProfileError(
+            "toml.wrong-value", key="title", value=str(title)[:_SHOWN], example=_EXAMPLES["title"], **place
+        )
+    said = [(("name",), text.data.get("name")), *((("title", language), value) for language, value in title.items())]
     for place, value in said:
         if isinstance(value, str):
             _refuse(text, place, value)
@@ -117,3 +122,5 @@ def _refuse(text: TomlText, place: tuple[str, ...], value: str) -> None:
         raise ProfileError("profile.mistakable", other=claim, **fields)
     if not skeleton(value):
         raise ProfileError("profile.nameless", **fields)
+    if len(value) > _LONGEST:
+        raise ProfileError("profile.long-name", limit=_LONGEST, **fields)

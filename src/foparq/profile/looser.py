@@ -39,6 +39,7 @@ TOLERANCES = {
     ("unit-contradiction", "agree"): _LARGER,
     ("zero-length", "coincide"): _SMALLER,
 }
+_PATTERNS = 10  #: layer patterns that are named
 _WEIGHT = {severity: weight for weight, severity in enumerate(reversed(Severity))}
 
 
@@ -174,7 +175,8 @@ def _covers(own: Sequence[str], other: Sequence[str]) -> bool:
 
 
 def _layers(spec: CheckSpec) -> tuple[str, ...]:
-    return (*spec.layers, *(f"{name}: {pattern}" for name, patterns in spec.on.items() for pattern in patterns))
+    patterns = [*spec.layers, *(f"{name}: {pattern}" for name, several in spec.on.items() for pattern in several)]
+    return (*patterns[:_PATTERNS], *(["…"] if len(patterns) > _PATTERNS else [])) or ("–",)
 
 
 # --- how drawings are read -------------------------------------------------------------------------------------------

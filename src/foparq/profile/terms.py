@@ -16,6 +16,8 @@ from foparq.profile.manifest import Manifest
 from foparq.profile.schema import Profile
 from foparq.units import parse_scale
 
+_SHOWN = 80  #: letters of a name in the delivery that are told
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reviewer:
@@ -67,17 +69,13 @@ def terms_of(manifest: Manifest, path: Path, reviewer: Reviewer) -> Terms:
     if reviewer.profile is not None and "profile" in manifest.delivery.model_fields_set:
         delivered = _delivered(named, root)
         if delivered is None or delivered.sha256 != used.sha256:
-            replaced.append(Replaced(what="profile", reviewer=used.name, delivery=named))
+            replaced.append(Replaced(what="profile", reviewer=used.name, delivery=named[:_SHOWN]))
             unused = _own_file(named, root)
     scale, other = _scales(manifest, path, used, reviewer)
     if other is not None and parse_scale(other) != scale:
         replaced.append(Replaced(what="scale", reviewer=f"1:{scale:g}", delivery=other))
-    compared = None if used.shipped else _counterpart(used)
-    return Terms(
-        profile=used, scale=scale, replaced=tuple(replaced), unused=unused,
-        compared=compared.name if compared else "",
-        looser=looser(used, compared, scale) if compared else (),
-    )  # fmt: skip
+    compared, points = ("", ()) if used.shipped else _comparison(used, scale)
+    return Terms(profile=used, scale=scale, compared=compared, looser=points, replaced=tuple(replaced), unused=unused)
 
 
 def _scales(manifest: Manifest, path: Path, used: Profile, reviewer: Reviewer) -> tuple[float, str | None]:
@@ -95,15 +93,16 @@ def _scales(manifest: Manifest, path: Path, used: Profile, reviewer: Reviewer) -
     return parse_scale(found), None
 
 
-def _counterpart(profile: Profile) -> Profile:
-    """Shipped profile that one of one's own is compared with.
+def _comparison(profile: Profile, scale: float) -> tuple[str, tuple[Looser, ...]]:
+    """Shipped profile that one of one's own is compared with, and where that is looser.
 
-    The one that it extends, if that is of the same class of product; else the first shipped one of that class. A file
-    of one's own is no measure for another.
+    The one that it extends, or the first shipped one of its class of product: if these are two, the one that shows
+    more. A file of one's own is no measure for another.
     """
-    names = [*(name for name in [profile.extends] if name in shipped_profiles()), *shipped_profiles()]
-    known = [load_profile(name) for name in names]
-    return next((one for one in known if one.product_class == profile.product_class), known[0])
+    shipped = {name: load_profile(name) for name in shipped_profiles()}
+    of_class = next((name for name, one in shipped.items() if one.product_class == profile.product_class), "")
+    names = [name for name in (profile.extends, of_class) if name in shipped]
+    return max(((name, looser(profile, shipped[name], scale)) for name in names), key=lambda one: len(one[1]))
 
 
 def _delivered(name: str, root: Path) -> Profile | None:
