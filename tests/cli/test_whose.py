@@ -281,6 +281,25 @@ def test_a_reviewers_slip_is_told(foparq: Command, tmp_path: Path, arguments: tu
     assert "Example: " in err
 
 
+def test_a_profile_of_the_delivery_reaches_no_farther_when_the_reviewer_names_it(
+    foparq: Command, tmp_path: Path
+) -> None:
+    files = {"r.toml": 'extends = "../base.toml"\nname = "caderno"\n', "../base.toml": 'name = "b"\n' + BARE}
+    folder = deliver(tmp_path / "d", None, files)
+    code, _, err = foparq("audit", folder, "--profile", folder / "r.toml")
+    assert (code, "outside the delivery's folder" in err) == (2, True)
+    (folder / "r.toml").write_text(OWN, encoding="utf-8")
+    assert foparq("audit", folder, "--profile", folder / "r.toml")[0] == 3
+    assert [one["path"] for one in audited(folder)["inputs"] if one["role"] == "profile"] == ["r.toml"]
+
+
+def test_a_ring_of_links_is_no_profile(foparq: Command, tmp_path: Path) -> None:
+    folder = deliver(tmp_path / "d", "ring.toml", {})
+    (folder / "ring.toml").symlink_to(folder / "ring.toml")
+    assert foparq("audit", folder)[0] == 2
+    assert foparq("audit", folder, "--profile", folder / "ring.toml")[0] == 2
+
+
 def test_two_scales_of_the_reviewers_are_refused(foparq: Command, tmp_path: Path) -> None:
     folder = deliver(tmp_path / "d", None, {"../mine.toml": OWN + 'scale = "1:10"\n'})
     code, _, err = foparq("audit", folder, "--profile", tmp_path / "mine.toml", "--scale", "1:50")

@@ -98,10 +98,10 @@ def refuse_false_claims(text: TomlText) -> None:
     """
     title = text.data.get("title", {})
     if not isinstance(title, dict):
-        place = {"file": str(text.path), "line": text.line(("title",))}
         raise ProfileError(
-            "toml.wrong-value", key="title", value=str(title)[:_SHOWN], example=_EXAMPLES["title"], **place
-        )
+            "toml.wrong-value", file=str(text.path), line=text.line(("title",)), key="title",
+            value=str(title)[:_SHOWN], example=_EXAMPLES["title"],
+        )  # fmt: skip
     said = [(("name",), text.data.get("name")), *((("title", language), value) for language, value in title.items())]
     for place, value in said:
         if isinstance(value, str):

@@ -4,6 +4,7 @@
 A manifest and a profile in the delivery's folder are the producer's words. What the reviewer states goes before them.
 """
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -64,7 +65,7 @@ def terms_of(manifest: Manifest, path: Path, reviewer: Reviewer) -> Terms:
         If a profile cannot be used, nobody states a scale, or one and the same side states two.
     """
     root, named = path.parent, manifest.delivery.profile
-    used = load_profile(named, root, root) if reviewer.profile is None else load_profile(reviewer.profile)
+    used = load_profile(named, root, root) if reviewer.profile is None else _reviewers(reviewer.profile, root)
     replaced, unused = [], None
     if reviewer.profile is not None and "profile" in manifest.delivery.model_fields_set:
         delivered = _delivered(named, root)
@@ -103,6 +104,14 @@ def _comparison(profile: Profile, scale: float) -> tuple[str, tuple[Looser, ...]
     of_class = next((name for name, one in shipped.items() if one.product_class == profile.product_class), "")
     names = [name for name in (profile.extends, of_class) if name in shipped]
     return max(((name, looser(profile, shipped[name], scale)) for name in names), key=lambda one: len(one[1]))
+
+
+def _reviewers(name: str, root: Path) -> Profile:
+    """Profile that the reviewer names. One in the delivery's folder is the producer's, and reaches no farther."""
+    full, home = Path(os.path.realpath(name)), root.resolve()  # unlike resolve, it takes a ring of links
+    if name.endswith(".toml") and full.is_relative_to(home):
+        return load_profile(full.relative_to(home).as_posix(), root, root)
+    return load_profile(name)
 
 
 def _delivered(name: str, root: Path) -> Profile | None:
