@@ -77,6 +77,17 @@ REFUSED: dict[str, tuple[str, dict[str, str]]] = {
     "the shipped name": ("r.toml", {"r.toml": 'extends = "et-doc-foparq-a"\nname = "et-doc-foparq-a"\n'}),
     "the shipped name in capitals": ("r.toml", {"r.toml": 'extends = "et-doc-foparq-a"\nname = "Et-Doc-Foparq-A"\n'}),
     "a Cyrillic letter": ("r.toml", {"r.toml": 'extends = "et-doc-foparq-a"\nname = "et-doc-foparq-\u0430"\n'}),
+    "a file called like the shipped one": ("et-doc-foparq-a.toml", {"et-doc-foparq-a.toml": OWN + EASY}),
+    "a file called like its title": ("ET DOC FOPARQ, class A.toml", {"ET DOC FOPARQ, class A.toml": OWN + EASY}),
+    "what it extends called like the shipped one": (
+        "r.toml", {"r.toml": OWN.replace("-a", "-a.toml"), "et-doc-foparq-a.toml": 'name = "b"\n' + BARE},
+    ),
+    "an easy element under the id of another": (
+        "r.toml", {"r.toml": OWN + '[[element]]\nid = "Q1"\nkind = "found-rate"\nrequired = true\nlimit = "99 %"\n'},
+    ),
+    "an easy element under the id of a result": (
+        "r.toml", {"r.toml": f'name = "caderno"\n{BARE}' + EASY.replace("Q1", "Q1-X").replace("absolute", "omission")},
+    ),
     "a copy of the shipped file": ("et-doc-foparq-a.toml", {"et-doc-foparq-a.toml": copy_of_the_shipped()}),
     "a copy under another name, with its title": (
         "r.toml", {"r.toml": copy_of_the_shipped().replace('"et-doc-foparq-a"', '"caderno"')},
@@ -103,7 +114,6 @@ NAMED: dict[str, tuple[str, dict[str, str], tuple[str, ...]]] = {
     "an easy limit": ("r.toml", {"r.toml": OWN + EASY}, ("limit of Q1 is 12 m instead of 15 mm",)),
     "no title": ("r.toml", {"r.toml": OWN}, ("nowhere looser",)),
     "norms of the shipped one": ("r.toml", {"r.toml": OWN + f"norms = {list(SHIPPED.norms)}\n"}, ()),
-    "a file called like the shipped one": ("et-doc-foparq-a.toml", {"et-doc-foparq-a.toml": OWN + EASY}, ("Q1",)),
     "a folder called like the shipped one": ("et-doc-foparq-a/r.toml", {"et-doc-foparq-a/r.toml": OWN + EASY}, ("Q1",)),
     "easy limits in what it extends": (
         "r.toml", {"r.toml": 'extends = "base.toml"\nname = "caderno"\n', "base.toml": 'name = "b"\n' + BARE},

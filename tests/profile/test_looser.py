@@ -72,7 +72,6 @@ LOOSER = {
     ),
     "not required": (q1(required="false"), Point.NOT_REQUIRED, "", ("Q1",), ""),
     "not applicable": (q1(applicable="false"), Point.NOT_REQUIRED, "", ("Q1",), ""),
-    "another kind": (element("Q1", "normality"), Point.KIND, "Q1", "normality", "absolute"),
     "rules not counted": (
         element("Q3", "faulty-rate", limit='"10 %"', rules='["duplicate"]'), Point.NOT_COUNTED, "Q3",
         tuple(rule for rule in Q3 if rule != "duplicate"), "",
@@ -146,6 +145,16 @@ def test_what_is_looser_is_named_with_both_values(
 @pytest.mark.parametrize("text", STRICTER.values(), ids=STRICTER.keys())
 def test_what_is_stricter_or_the_same_is_not_named(tmp_path: Path, text: str) -> None:
     assert found(tmp_path, text) == ()
+
+
+def test_another_kind_of_element_is_named() -> None:
+    shipped = load_profile("et-doc-foparq-a")
+    kinds = {spec.id: spec for spec in shipped.elements}
+    other = shipped.model_copy(
+        update={"elements": (kinds["Q3-gap"].model_copy(update={"id": "Q4", "required": True}),)}
+    )
+    named = looser(other, shipped.model_copy(update={"elements": (kinds["Q4"],)}), SCALE)
+    assert named == (Looser(point=Point.KIND, subject="Q4", own="found-rate", other="commission"),)
 
 
 def test_two_bindings_of_which_neither_is_as_strict_do_not_make_up_for_each_other(tmp_path: Path) -> None:

@@ -9,8 +9,8 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from foparq.errors import ManifestError, ProfileError, QuantityError, UsageError
-from foparq.profile.claims import refuse_false_claims
-from foparq.profile.elements import ElementSpec, results_of
+from foparq.profile.claims import refuse_false_claims, refuse_false_elements
+from foparq.profile.elements import ElementSpec
 from foparq.profile.find import find_profile, is_shipped, shipped_profiles
 from foparq.profile.manifest import Manifest
 from foparq.profile.schema import CheckSpec, Profile, ProfileFile
@@ -115,7 +115,7 @@ def load_profile(name: str, beside: Path | None = None, within: Path | None = No
     own = [part for part in (text, base) if part is not None and not is_shipped(part.path)]
     for part in own:
         refuse_false_claims(part)
-    _refuse_like_ids(text, elements)
+    refuse_false_elements(text, elements, shipped=not own)
     plain = {key: value for key, value in data.items() if key not in {"check", "element"}}
     made = {
         **plain,
@@ -146,17 +146,6 @@ def _base(text: TomlText, within: Path | None) -> TomlText | None:
 def _joint_hash(own: str, base: str) -> str:
     """Hash of a profile and of what it extends: of two lines, the SHA-256 of the one and of the other."""
     return hashlib.sha256(f"{own}\n{base}\n".encode()).hexdigest()
-
-
-def _refuse_like_ids(text: TomlText, elements: Sequence[ElementSpec]) -> None:
-    """Refuse elements whose results could not be told apart: what is said of one would hold for the other."""
-    ids = [spec.id for spec in elements]
-    for number, spec in enumerate(elements):
-        other = next((id_ for n, id_ in enumerate(ids) if n != number and spec.id in results_of(id_)), None)
-        if other is not None:
-            own = [table.get("id") for table in _tables(text, "element")]
-            line = text.line(("element", own.index(spec.id))) if spec.id in own else 1
-            raise ProfileError("profile.element-twice", file=str(text.path), line=line, value=spec.id, other=other)
 
 
 def load_manifest(path: Path) -> Manifest:
