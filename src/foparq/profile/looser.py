@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Where one profile lets more pass than another.
 
-A setting is *looser* than another if some delivery fares better under it: a fault is not found, weighs less or is not
-counted, something is not required, a doubt is not raised, or less is shown. Of a number whose change can do so either
-way, depending on what is drawn, every difference is looser. What is merely stricter is not told.
+A setting is *looser* than another if something passes under it that does not pass under the other: a fault is not
+found, weighs less or is not counted, something is not required, a doubt is not raised, or less is shown. Of a number
+whose change can do so either way, depending on what is drawn, every difference is looser. A demand so high that it
+leaves undecided what the other rejects is not: nothing passes by it.
 """
 
 import math
