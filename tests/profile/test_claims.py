@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from foparq.errors import ProfileError
-from foparq.profile.claims import mistaken_for, odd_letters
+from foparq.profile.claims import mistaken_for
+from foparq.profile.letters import odd_letters
 from foparq.profile.load import load_profile, shipped_profiles
 from foparq.report.words import LANGUAGES, Words
 
@@ -133,6 +134,13 @@ def test_letters_that_are_composed_or_not_are_the_same() -> None:
     assert odd_letters("métrico") == odd_letters("me\u0301trico") == []
     assert odd_letters("b\u0301") == ["\u0301"], "there is no such letter"
     assert odd_letters("x\u200b") == ["\u200b"]
+
+
+def test_a_shipped_name_in_other_letters_is_told_with_them() -> None:
+    """The two names look the same: a message without the letter's number would say nothing."""
+    with pytest.raises(ProfileError) as caught:
+        load_profile("et-doc-foparq-\u0430")
+    assert all("U+0430" in shown(caught.value, language) for language in LANGUAGES)
 
 
 def test_every_shipped_profile_is_taken_for_itself() -> None:

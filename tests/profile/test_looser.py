@@ -2,11 +2,14 @@
 """Where one profile lets more pass than another: both directions of every setting."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from foparq.check.registry import all_rules
 from foparq.findings.table import Severity
@@ -203,6 +206,23 @@ def test_every_key_of_every_kind_of_element_has_its_direction() -> None:
     for kind in ElementSpec.KINDS.values():
         keys = set(kind.model_fields) - set(ElementSpec.model_fields) - {"rules"}
         assert keys <= set(kind.LOOSER), f"{kind.KIND}: say in LOOSER which change lets more pass"
+
+
+@settings(deadline=None)
+@given(st.sampled_from(sorted(TOLERANCES)), st.floats(0.01, 100.0))
+def test_of_two_tolerances_one_is_looser(key: tuple[str, str], factor: float) -> None:
+    """Exactly one of two profiles that differ in one tolerance is looser; of equal ones neither is."""
+    before = load_profile("et-doc-foparq-a")
+    (spec,) = (one for one in before.checks if one.rule == key[0])
+    was = spec.tolerances[key[1]]
+    now = replace(was, number=was.number * factor)
+    changed = spec.model_copy(update={"tolerances": {**spec.tolerances, key[1]: now}})
+    checks = tuple(changed if one is spec else one for one in before.checks)
+    after = before.model_copy(update={"checks": checks})
+    larger = now.si(SCALE) > was.si(SCALE)
+    expected = now.si(SCALE) != was.si(SCALE) and larger is (TOLERANCES[key] is LooserWhen.LARGER)
+    assert bool(looser(after, before, SCALE)) is expected
+    assert bool(looser(before, after, SCALE)) is (now.si(SCALE) != was.si(SCALE) and not expected)
 
 
 # --- which change of a tolerance finds less: a drawing for each ------------------------------------------------------

@@ -3,7 +3,6 @@
 
 import re
 import tomllib
-import unicodedata
 from collections.abc import Sequence
 from difflib import SequenceMatcher
 from functools import cache
@@ -12,57 +11,15 @@ from typing import Any
 from foparq.errors import ProfileError
 from foparq.profile.elements import ElementSpec, results_of
 from foparq.profile.find import shipped_profiles
+from foparq.profile.letters import odd_letters, shown_letters, skeleton
 from foparq.profile.toml_text import TomlText
 from foparq.resources import shipped
 
-#: letters and signs of European texts that do not decompose into ASCII, and what they are read as
-_USUAL = {
-    "æ": "ae", "œ": "oe", "ø": "o", "đ": "d", "ð": "d", "þ": "p", "ł": "l", "ı": "i", "ß": "ss", "€": "e",
-    **dict.fromkeys("–—‘’“”«»·§°•", ""),
-}  # fmt: skip
-#: what is read as another letter
-_ALIKE = str.maketrans(
-    {
-        **dict.fromkeys("0", "o"), **dict.fromkeys("1i!|", "l"), **dict.fromkeys("3", "e"), **dict.fromkeys("5$", "s"),
-        **dict.fromkeys("4@", "a"), **dict.fromkeys("7+", "t"), **dict.fromkeys("68", "b"), **dict.fromkeys("9g", "q"),
-        **dict.fromkeys("2", "z"), **dict.fromkeys("(<", "c"),
-    }
-)  # fmt: skip
-_PAIRS = (("rn", "m"), ("vv", "w"), ("cl", "d"))  #: two letters that are read as one
 _OWN_WORD = 6  #: letters of a word that is a specification's own, such as "FOPARQ"
 _LIKE = 0.9  #: share of letters in common with which two texts are read as the same
 _EXAMPLES = {"name": 'name = "caderno-da-obra"', "title": 'title.pt-BR = "Caderno de encargos da obra"'}
 _LONGEST = 200  #: letters of a name or title: it stands in the first lines of every report
 _SHOWN = 80  #: letters of a wrong value that a message repeats
-
-
-def skeleton(text: str) -> str:
-    """What is left of a text for a hasty eye: small letters without accents, signs and spaces.
-
-    Examples
-    --------
-    >>> skeleton("ＥＴ/D0C\u2011Fóparq_A") == skeleton("et-doc-foparq-a")
-    True
-    """
-    plain = unicodedata.normalize("NFKD", unicodedata.normalize("NFKD", text).casefold())
-    read = "".join(_USUAL.get(letter, letter) for letter in plain).translate(_ALIKE)
-    letters = "".join(letter for letter in read if "a" <= letter <= "z")
-    for pair, letter in _PAIRS:
-        letters = letters.replace(pair, letter)
-    return letters
-
-
-def odd_letters(text: str) -> list[str]:
-    """Letters and signs of other scripts, invisible ones, and marks that belong to no letter, each once."""
-    composed = unicodedata.normalize("NFC", text)
-    return list(dict.fromkeys(letter for letter in composed if not _is_usual(letter)))
-
-
-def _is_usual(letter: str) -> bool:
-    if letter.casefold() in _USUAL:
-        return True
-    base = [part for part in unicodedata.normalize("NFKD", letter) if not unicodedata.combining(part)]
-    return bool(base) and all(part.isascii() and part.isprintable() for part in base)
 
 
 def mistaken_for(text: str, *, words: bool = True) -> str | None:
@@ -150,8 +107,7 @@ def _refuse(text: TomlText, place: tuple[str, ...], value: str) -> None:
     if place == ("name",) and value in shipped_profiles():
         raise ProfileError("profile.name-taken", **{**fields, "example": _EXAMPLES["name"]})
     if odd := odd_letters(value):
-        shown = [f"{letter} (U+{ord(letter):04X})" for letter in odd[:5]]
-        raise ProfileError("profile.odd-letters", letters=shown, **fields)
+        raise ProfileError("profile.odd-letters", letters=shown_letters(odd), **fields)
     if claim := mistaken_for(value):
         raise ProfileError("profile.mistakable", other=claim, **fields)
     if not skeleton(value):

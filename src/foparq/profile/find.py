@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from foparq.errors import ProfileError
+from foparq.profile.letters import odd_letters, shown_letters
 from foparq.resources import shipped
 
 _SHOWN = 80  #: letters of a wrong name that a message repeats
@@ -47,16 +48,20 @@ def find_profile(
     if name.endswith(".toml"):
         path = (beside or Path()) / (name if within is None else name.replace("\\", "/"))
         if within is not None and not _inside(name, path, within):
+            if place is not None:
+                raise ProfileError("profile.outside-base", value=name[:_SHOWN], example=_EXAMPLE, **place)
             raise ProfileError("profile.outside", value=name[:_SHOWN], example=_EXAMPLE)
     elif "/" not in name and "\\" not in name:
         path = _folder() / f"{name}.toml"
     with contextlib.suppress(OSError, ValueError):  # of a name that no file can have
         if path is not None and path.is_file():
             return path
-    known = ", ".join(shipped_profiles())
+    fields = {"value": name[:_SHOWN], "known": ", ".join(shipped_profiles()), "example": _EXAMPLE}
     if place is not None:
-        raise ProfileError("profile.unknown-base", value=name[:_SHOWN], known=known, example=_EXAMPLE, **place)
-    raise ProfileError("profile.unknown", value=name[:_SHOWN], known=known, example=_EXAMPLE)
+        raise ProfileError("profile.unknown-base", **fields, **place)
+    if odd := odd_letters(name):
+        raise ProfileError("profile.unknown-odd", letters=shown_letters(odd), **fields)
+    raise ProfileError("profile.unknown", **fields)
 
 
 def _inside(name: str, path: Path, folder: Path) -> bool:
