@@ -48,6 +48,7 @@ _EXAMPLES = {
     "kind": 'kind = "omission"',
     "language": 'language = "pt-BR"',
     "layers": 'layers = ["PAREDE*"]',
+    "norms": 'norms = ["ISO 19157:2013"]',
     "on": 'on = { reference = ["EIXO*"] }',
     "limit": 'limit = "5 %"',
     "name": 'name = "caderno-da-obra"',
