@@ -75,7 +75,7 @@ def refuse_false_claims(text: TomlText) -> None:
             _refuse(text, place, value)
 
 
-def refuse_false_elements(text: TomlText, elements: Sequence[ElementSpec], *, shipped: bool) -> None:
+def refuse_false_elements(text: TomlText, elements: Sequence[ElementSpec], *, own: bool) -> None:
     """Refuse elements that pass for others.
 
     Two whose results could not be told apart: what is said of one would hold for the other. And, in a profile of one's
@@ -86,12 +86,12 @@ def refuse_false_elements(text: TomlText, elements: Sequence[ElementSpec], *, sh
     ProfileError
         Which names the element and a right example.
     """
-    kinds = {} if shipped else {one["id"]: one["kind"] for data in _shipped().values() for one in data["element"]}
+    kinds = {one["id"]: one["kind"] for data in _shipped().values() for one in data["element"]} if own else {}
+    written = [table.get("id") for table in text.data.get("element", [])]
     for number, spec in enumerate(elements):
         others = [other.id for n, other in enumerate(elements) if n != number and spec.id in results_of(other.id)]
         known = next((id_ for id_ in kinds if spec.id in results_of(id_)), spec.id)
-        own = [table.get("id") for table in text.data.get("element", [])]
-        line = text.line(("element", own.index(spec.id))) if spec.id in own else 1
+        line = text.line(("element", written.index(spec.id))) if spec.id in written else 1
         place = {"file": str(text.path), "line": line, "value": spec.id, "example": 'id = "Q9"'}
         if others:
             raise ProfileError("profile.element-twice", other=others[0], **place)
@@ -106,11 +106,11 @@ def _refuse(text: TomlText, place: tuple[str, ...], value: str) -> None:
     }  # fmt: skip
     if place == ("name",) and value in shipped_profiles():
         raise ProfileError("profile.name-taken", **{**fields, "example": _EXAMPLES["name"]})
+    if len(value) > _LONGEST:
+        raise ProfileError("profile.long-name", limit=_LONGEST, **fields)
     if odd := odd_letters(value):
         raise ProfileError("profile.odd-letters", letters=shown_letters(odd), **fields)
     if claim := mistaken_for(value):
         raise ProfileError("profile.mistakable", other=claim, **fields)
     if not skeleton(value):
         raise ProfileError("profile.nameless", **fields)
-    if len(value) > _LONGEST:
-        raise ProfileError("profile.long-name", limit=_LONGEST, **fields)

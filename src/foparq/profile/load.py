@@ -116,7 +116,7 @@ def load_profile(name: str, beside: Path | None = None, within: Path | None = No
     own = [part for part in (text, base) if part is not None and not is_shipped(part.path)]
     for part in own:
         refuse_false_claims(part)
-    refuse_false_elements(text, elements, shipped=not own)
+    refuse_false_elements(text, elements, own=bool(own))
     plain = {key: value for key, value in data.items() if key not in {"check", "element"}}
     made = {
         **plain,
