@@ -28,17 +28,18 @@ from foparq.findings.counts import FeatureCounts
 from foparq.findings.table import Severity, join_findings
 from foparq.findings.ties import Ties
 from foparq.model.delivery import Delivery
-from foparq.profile.load import load_manifest, load_profile
+from foparq.profile.load import load_manifest
 from foparq.profile.schema import Profile
+from foparq.profile.terms import Reviewer, Terms, terms_of
 from foparq.read.delivery import read_delivery, read_loose
 from foparq.read.guard.stream import Stopped, streamed
 from foparq.read.versions import reader_versions
 from foparq.report.files import Written, writable, write_reports
 from foparq.report.record import AuditRecord
-from foparq.units import parse_scale
 
 MANIFEST = "delivery.toml"
 OUT = "audit"  #: folder of the reports, beside the manifest
+_NOTHING = Reviewer()  #: the delivery's own words hold
 
 Progress = Callable[[str], None]
 T = TypeVar("T")
@@ -72,14 +73,17 @@ def find_manifest(place: Path) -> Path:
 
 
 def audit(
-    place: Path, *, language: str | None = None, otherwise: str = "en", progress: Progress | None = None
-) -> Audit:
+    place: Path, *, reviewer: Reviewer = _NOTHING, language: str | None = None, otherwise: str = "en",
+    progress: Progress | None = None,
+) -> Audit:  # fmt: skip
     """Audit one delivery.
 
     Parameters
     ----------
     place : Path
         The delivery's folder, or its manifest.
+    reviewer : Reviewer
+        Statements that go before the delivery's.
     language : str, optional
         Language of the reports; the manifest's if left out.
     otherwise : str
@@ -94,24 +98,19 @@ def audit(
     """
     path = find_manifest(place)
     manifest = load_manifest(path)
-    profile = load_profile(manifest.delivery.profile, path.parent)
-    validate_checks(profile)
-    if manifest.delivery.scale and profile.scale and parse_scale(manifest.delivery.scale) != parse_scale(profile.scale):
-        raise ManifestError(
-            "manifest.scale-differs", file=str(path), value=manifest.delivery.scale, other=profile.scale
-        )
-    stated = manifest.delivery.scale or profile.scale
-    scale = parse_scale(stated) if stated else None
-    if scale is None:
-        raise ManifestError("manifest.no-scale", file=str(path), line=1, key="delivery.scale", example='scale = "1:50"')
-    delivery, log = read_delivery(path.parent, manifest, path.name, profile=profile, scale=scale, progress=progress)
+    terms = terms_of(manifest, path, reviewer)
+    validate_checks(terms.profile)
+    delivery, log = read_delivery(
+        path.parent, manifest, path.name, profile=terms.profile, scale=terms.scale, unused=terms.unused,
+        progress=progress,
+    )  # fmt: skip
     spoken = language or manifest.delivery.language or otherwise
-    return _judged(delivery, log, profile, scale, spoken, progress, loose=False)
+    return _judged(delivery, log, terms, spoken, progress, loose=False)
 
 
 def audit_to(
-    place: Path, out: Path | None = None, *, language: str | None = None, otherwise: str = "en",
-    progress: Progress | None = None,
+    place: Path, out: Path | None = None, *, reviewer: Reviewer = _NOTHING, language: str | None = None,
+    otherwise: str = "en", progress: Progress | None = None,
 ) -> Written:  # fmt: skip
     """Audit one delivery and write its reports into a folder.
 
@@ -121,7 +120,7 @@ def audit_to(
         The delivery's folder, or its manifest.
     out : Path, optional
         Where the reports go; ``audit/`` beside the manifest if left out.
-    language, otherwise, progress
+    reviewer, language, otherwise, progress
         As in :func:`audit`.
 
     Returns
@@ -138,7 +137,7 @@ def audit_to(
     """
     folder = out or find_manifest(place).parent / OUT
     writable(folder)
-    done = audit(place, language=language, otherwise=otherwise, progress=progress)
+    done = audit(place, reviewer=reviewer, language=language, otherwise=otherwise, progress=progress)
     return write_reports(done.record, done.log, folder, progress)
 
 
@@ -163,14 +162,14 @@ def check_files(
     delivery, log = read_loose(
         paths, profile=profile, scale=scale, unit=unit, plane=plane, areas=areas, progress=progress
     )
-    return _judged(delivery, log, profile, scale, language, progress, loose=True)
+    return _judged(delivery, log, Terms(profile=profile, scale=scale), language, progress, loose=True)
 
 
 def _judged(
-    delivery: Delivery, log: Sequence[str], profile: Profile, scale: float | None, language: str,
-    progress: Progress | None, *, loose: bool,
-) -> Audit:  # fmt: skip
+    delivery: Delivery, log: Sequence[str], terms: Terms, language: str, progress: Progress | None, *, loose: bool
+) -> Audit:
     started = datetime.now(UTC).isoformat(timespec="seconds")
+    profile, scale = terms.profile, terms.scale
     ties, untied = _tied(delivery, profile, scale) if not loose else (None, None)
     if not loose:
         delivery = with_witnesses(delivery, ties)
@@ -191,15 +190,19 @@ def _judged(
         ties=ties,
         faults=int(np.count_nonzero(findings.severity != Severity.NOTE)),
     )  # fmt: skip
-    evaluated = evaluate(profile, evidence, loose=loose)
+    evaluated = evaluate(profile, evidence, terms=terms, loose=loose)
     record = AuditRecord(
         delivery=delivery,
         quality=evaluated.quality,
         outcomes=outcomes,
         findings=findings,
         profile=profile.name,
-        profile_title=profile.title.get(language, profile.name),
+        profile_title=profile.titled(language),
+        profile_titles=profile.title,
         profile_sha256=profile.sha256,
+        profile_shipped=profile.shipped,
+        profile_changes=profile.changes,
+        compared=terms.compared,
         product_class=profile.product_class,
         scale=scale,
         language=language,

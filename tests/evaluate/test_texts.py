@@ -13,7 +13,9 @@ from foparq.evaluate.balance import Incomparable
 from foparq.evaluate.measures import measure_counting, measures
 from foparq.evaluate.quality import Verdict
 from foparq.findings.because import Because
+from foparq.findings.table import Severity
 from foparq.profile.load import load_profile, shipped_profiles
+from foparq.profile.looser import Point
 from foparq.report.words import LANGUAGES, Words
 from foparq.resources import shipped
 
@@ -34,6 +36,7 @@ def reasons() -> set[str]:
                 found |= {f"{kind}.{case}" for kind in ("absolute", "relative") for case in cases}
     found |= {f"checks.{because}" for because in Because if because.opens}
     found |= {f"files.{because}" for because in Because if because.opens and because is not Because.CRASHED}
+    found |= {f"looser.{point}" for point in Point} | {f"severity.{severity}" for severity in Severity}
     return found - {"measures.toml"}
 
 

@@ -26,6 +26,8 @@ def command(say: Words) -> click.Command:
         epilog=say("cli.audit.exits"),
         params=[
             click.Argument(["delivery"], metavar=say("cli.audit.delivery"), type=click.Path(path_type=Path)),
+            click.Option(["--profile"], metavar=say("cli.audit.profile-value"), help=say("cli.audit.profile")),
+            click.Option(["--scale"], metavar="1:K", help=say("cli.audit.scale")),
             click.Option(
                 ["--out"], metavar="DIR", type=click.Path(path_type=Path, file_okay=False), help=say("cli.audit.out")
             ),

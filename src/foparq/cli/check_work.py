@@ -58,7 +58,13 @@ def _profile(name: str, select: Sequence[str], ignore: Sequence[str], settings: 
         wanted = _names(select) if select else {card.name for card in cards()}
         chosen = sorted(wanted - _names(ignore))
         profile = choose(profile, chosen, required_by(chosen))
-    return with_settings(profile, settings)
+    changes = [
+        f"{option} {value}"
+        for option, values in (("--select", select), ("--ignore", ignore), ("--set", settings))
+        for value in values
+    ]
+    profile = with_settings(profile, settings)
+    return profile.model_copy(update={"changes": tuple(changes)}) if changes else profile
 
 
 def _names(texts: Sequence[str]) -> set[str]:

@@ -17,7 +17,15 @@ from foparq.report.files import text_of
 from foparq.report.formats import format_named
 from foparq.report.record import AuditRecord
 from foparq.report.rows import finding_rows
-from foparq.report.sentences import aside_sentence, element_title, outcome_because, reason_sentence, source_sentence
+from foparq.report.sentences import (
+    aside_sentence,
+    element_title,
+    outcome_because,
+    reason_sentence,
+    scale_text,
+    source_sentence,
+    specification,
+)
 from foparq.report.words import Words, printable
 
 _SHOWN = 10  #: findings of one kind that the text names
@@ -54,7 +62,7 @@ def _concise(record: AuditRecord, say: Words) -> None:
         place = "" if row["where"] is None else " ({})".format(", ".join(f"{value:.4f}" for value in row["where"]))
         parts = [printable(str(part)) for part in (row["source"], row["layer"], row["handle"]) if part]
         click.echo(f"{':'.join(parts)}: {row['rule']} {row['name']} {_size(say, row['size'], row['unit'])}{place}")
-    click.echo(_headline(record, say))
+    click.echo(f"{_headline(record, say)} {_terms(record, say)}")
 
 
 def _text(record: AuditRecord, say: Words, written: Sequence[Path]) -> None:
@@ -64,6 +72,7 @@ def _text(record: AuditRecord, say: Words, written: Sequence[Path]) -> None:
         else None
     )
     click.echo(_styled(_headline(record, say), bold=True, fg=colour))
+    click.echo(_terms(record, say))
     # Of loose files the headline tells the first reason itself: faults, or none.
     above = record.loose and record.quality.verdict is not Verdict.UNDECIDED
     for reason in record.quality.why[1 if above else 0 :]:
@@ -92,6 +101,16 @@ def _headline(record: AuditRecord, say: Words) -> str:
         profile=record.profile,
         faults=faults,
         notes=notes,
+    )
+
+
+def _terms(record: AuditRecord, say: Words) -> str:
+    """On what every number rests: specification, class of product, scale."""
+    return say(
+        "cli.terms",
+        specification=specification(say, record),
+        product_class=say(f"report.fact.class-{record.product_class}"),
+        scale=scale_text(say, record),
     )
 
 

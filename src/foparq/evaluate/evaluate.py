@@ -9,8 +9,10 @@ from foparq.evaluate.evidence import Evidence, element, judged
 from foparq.evaluate.kinds import kind_of
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, because
 from foparq.evaluate.verdict import decide
+from foparq.evaluate.whose import whose
 from foparq.profile.elements import ElementSpec
 from foparq.profile.schema import Profile
+from foparq.profile.terms import Terms
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,11 +23,13 @@ class Evaluation:
     log: tuple[str, ...]  #: tracebacks
 
 
-def evaluate(profile: Profile, evidence: Evidence, *, loose: bool = False) -> Evaluation:
+def evaluate(profile: Profile, evidence: Evidence, *, terms: Terms | None = None, loose: bool = False) -> Evaluation:
     """Quality report of one delivery after ISO 19157.
 
     Parameters
     ----------
+    terms : Terms, optional
+        Who states profile and scale: the first sentence of a verdict tells where that is not what one expects.
     loose : bool
         True for files without a manifest: faults and what nobody saw are concluded from, not elements.
 
@@ -47,7 +51,10 @@ def evaluate(profile: Profile, evidence: Evidence, *, loose: bool = False) -> Ev
     if log:
         evidence = replace(evidence, crashed=True)
     conclude = conclude_files if loose else decide
-    return Evaluation(conclude(profile, evidence, elements), tuple(log))
+    quality = conclude(profile, evidence, elements)
+    if terms is not None and not loose and (first := whose(terms, evidence.delivery)):
+        quality = replace(quality, why=(first, *quality.why), terms=first)
+    return Evaluation(quality, tuple(log))
 
 
 def _waived(one: Element) -> Element:

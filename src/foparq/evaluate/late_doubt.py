@@ -17,5 +17,6 @@ def without_reports(quality: QualityReport, reports: Sequence[str]) -> QualityRe
     """
     reason = because("verdict.crashed-reports", reports=tuple(reports))
     if quality.verdict is Verdict.ACCEPTED:
-        return replace(quality, verdict=Verdict.UNDECIDED, why=(reason,))
+        first = (quality.terms,) if quality.terms else ()
+        return replace(quality, verdict=Verdict.UNDECIDED, why=(*first, reason))
     return replace(quality, why=(*quality.why, reason))

@@ -27,7 +27,8 @@ class Verdict(StrEnum):
 class Reason:
     """A sentence to be made: message id in the ``evaluate`` catalogue and what it names.
 
-    Fields that are lengths are pairs (value, unit) so that every language writes them its own way.
+    Fields that are lengths are pairs (value, unit) so that every language writes them its own way. A field may be a
+    reason itself, or a tuple of reasons.
     """
 
     message: str
@@ -78,3 +79,4 @@ class QualityReport:
     why: tuple[Reason, ...]
     elements: tuple[Element, ...]
     refused: bool = False  #: a file that was named could not be read
+    terms: Reason | None = None  #: whose specification and scale it rests on; then it is the first of the reasons

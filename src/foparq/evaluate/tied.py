@@ -14,8 +14,8 @@ from foparq.findings.because import Because
 from foparq.findings.ties import DistanceTies, Ends, Lies, PointTies
 from foparq.match.causes import Cause
 from foparq.model.tables import Checkpoints, Distances
+from foparq.profile.elements import AXES
 
-AXES = ("X", "Y", "Z")
 _SHOWN = 10  #: ids that a reason names
 _REMARKED = 0.01  #: probability below which differences that are too small are told
 _GROSS = 1e-5  #: and below which nothing is accepted on them

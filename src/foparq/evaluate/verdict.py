@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
 from foparq.evaluate.scale import scale_doubts
-from foparq.evaluate.tied import AXES
 from foparq.findings.outcome import Status
 from foparq.model.delivery import SourceStatus
 from foparq.model.drawing import Drawing
+from foparq.profile.elements import results_of
 from foparq.profile.schema import Profile
 
 _OPEN = set(ElementStatus) - {ElementStatus.PASS, ElementStatus.FAIL}
@@ -22,7 +22,7 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     Rejected: a required element fails. Else undecided: a required element is undecided or not assessed, a file that the
     manifest names could not be read, something crashed, or nothing is required. Else accepted.
     """
-    waived = {name for spec in profile.elements if not spec.applicable for name in _results(spec.id)}
+    waived = {name for spec in profile.elements if not spec.applicable for name in results_of(spec.id)}
     required = [element for element in elements if element.required and element.id not in waived]
     failed = [element for element in required if element.status is ElementStatus.FAIL]
     failing = _together(element.why[:1] for element in failed)
@@ -100,14 +100,9 @@ def _shifted(profile: Profile, elements: Sequence[Element]) -> bool:
 
     def statuses(kind: str) -> set[ElementStatus]:
         ids = [spec.id for spec in profile.elements if spec.kind == kind]
-        return {element.status for element in elements if any(element.id in _results(id_) for id_ in ids)}
+        return {element.status for element in elements if any(element.id in results_of(id_) for id_ in ids)}
 
     return ElementStatus.FAIL in statuses("absolute") and statuses("relative") == {ElementStatus.PASS}
-
-
-def _results(id_: str) -> tuple[str, ...]:
-    """Ids of the results that one element of the profile may give."""
-    return (id_, *(f"{id_}-{axis}" for axis in AXES))
 
 
 def lost_files(evidence: Evidence) -> list[Reason]:

@@ -5,9 +5,18 @@
 ``foparq.evaluate.elements``; nothing else has to know it.
 """
 
+import math
+from collections.abc import Mapping
 from typing import ClassVar
 
-from foparq.profile.quantities import AnyQuantity, Share, Strict
+from foparq.profile.quantities import AnyQuantity, LooserWhen, Share, Strict
+
+AXES = ("X", "Y", "Z")
+
+
+def results_of(id_: str) -> tuple[str, ...]:
+    """Ids of the results that one element may give: its own, and one an axis."""
+    return (id_, *(f"{id_}-{axis}" for axis in AXES))
 
 
 class ElementSpec(Strict):
@@ -15,6 +24,9 @@ class ElementSpec(Strict):
 
     KIND: ClassVar[str] = ""  #: as the profile writes it
     KINDS: ClassVar[dict[str, type["ElementSpec"]]] = {}  #: every kind by name
+    #: which change of a key lets more pass; of a key that is not named here, any
+    LOOSER: ClassVar[Mapping[str, LooserWhen]] = {}
+    ABSENT: ClassVar[Mapping[str, float]] = {}  #: the number that a key left out amounts to
 
     id: str  #: ``"Q1"``; one element may give several results (``Q1-X``, ``Q1-Y``, ``Q1-Z``)
     kind: str
@@ -37,11 +49,17 @@ class ElementSpec(Strict):
 class LimitedSpec(ElementSpec):
     """An element whose value has a limit, or is only reported."""
 
+    LOOSER: ClassVar[Mapping[str, LooserWhen]] = {"limit": LooserWhen.LARGER}
+    ABSENT: ClassVar[Mapping[str, float]] = {"limit": -math.inf}  # a required element without a limit passes nothing
+
     limit: AnyQuantity | None = None
 
 
 class SampledSpec(ElementSpec):
     """An element of measured differences."""
+
+    # The bound that is told beside a pass grows with the confidence.
+    LOOSER: ClassVar[Mapping[str, LooserWhen]] = {"confidence": LooserWhen.SMALLER, "fewest": LooserWhen.SMALLER}
 
     confidence: Share = 0.95  #: of tests and bounds
     fewest: int = 2  #: observations below which nothing can be said
@@ -49,6 +67,13 @@ class SampledSpec(ElementSpec):
 
 class ReferencedSpec(SampledSpec, LimitedSpec):
     """An element whose differences are against a reference that has an accuracy of its own."""
+
+    LOOSER: ClassVar[Mapping[str, LooserWhen]] = {
+        **SampledSpec.LOOSER,
+        **LimitedSpec.LOOSER,
+        "reference_share": LooserWhen.LARGER,
+    }
+    ABSENT: ClassVar[Mapping[str, float]] = {**LimitedSpec.ABSENT, "reference_share": math.inf}
 
     reference_share: Share | None = None  #: the reference must be better than this share of the limit
 
@@ -69,12 +94,16 @@ class TrendSpec(SampledSpec):
     """Trend of coordinate differences."""
 
     KIND = "trend"
+    # A test that must be surer finds less.
+    LOOSER: ClassVar[Mapping[str, LooserWhen]] = {**SampledSpec.LOOSER, "confidence": LooserWhen.LARGER}
 
 
 class NormalitySpec(SampledSpec):
     """Normality of distance differences."""
 
     KIND = "normality"
+    # A test that must be surer finds less.
+    LOOSER: ClassVar[Mapping[str, LooserWhen]] = {**SampledSpec.LOOSER, "confidence": LooserWhen.LARGER}
 
 
 class RulesSpec(LimitedSpec):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Profiles and manifests from files, with errors that name file, line, key, value and a right example."""
 
-import contextlib
 import hashlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -10,11 +9,14 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from foparq.errors import ManifestError, ProfileError, QuantityError, UsageError
+from foparq.profile.claims import refuse_false_claims, refuse_false_elements
 from foparq.profile.elements import ElementSpec
+from foparq.profile.find import find_profile, is_shipped, shipped_profiles
 from foparq.profile.manifest import Manifest
-from foparq.profile.schema import CheckSpec, Profile
+from foparq.profile.schema import CheckSpec, Profile, ProfileFile
 from foparq.profile.toml_text import TomlText, read_toml
-from foparq.resources import shipped
+
+__all__ = ["load_manifest", "load_profile", "shipped_profiles"]
 
 _CHECK_KEYS = {"rule", "severity", "layers", "on", "apart"}
 _TOP_KEYS = {
@@ -31,11 +33,14 @@ _TOP_KEYS = {
     "check",
     "element",
 }
+#: what a profile of one's own says itself: it inherits no claim
+_OWN_KEYS = {"name", "title", "norms"}
 #: a right example for a key, shown when its value is wrong
 _EXAMPLES = {
     "coarsest": 'coarsest = "1:200"',
     "drawing": "[[drawing]]",
     "apart": 'apart = "1 mm @ scale"',
+    "extends": 'extends = "et-doc-foparq-a"',
     "areas": 'areas = ["REVESTIMENTO"]',
     "blocks": 'blocks = "explode"',
     "classes": 'classes = { "PORTA*" = "door" }',
@@ -49,8 +54,10 @@ _EXAMPLES = {
     "kind": 'kind = "omission"',
     "language": 'language = "pt-BR"',
     "layers": 'layers = ["PAREDE*"]',
+    "norms": 'norms = ["ISO 19157:2013"]',
     "on": 'on = { reference = ["EIXO*"] }',
     "limit": 'limit = "5 %"',
+    "name": 'name = "caderno-da-obra"',
     "path": 'path = "fachada.dxf"',
     "plane": 'plane = "xz"',
     "product_class": 'product_class = "A"',
@@ -76,12 +83,7 @@ _SHOWN = 80  #: letters of a wrong value that a message repeats
 _Model = TypeVar("_Model", bound=BaseModel)
 
 
-def shipped_profiles() -> list[str]:
-    """Names of the profiles that travel with foparq."""
-    return sorted(path.stem for path in (shipped("rules") / "profiles").glob("*.toml"))
-
-
-def load_profile(name: str, beside: Path | None = None) -> Profile:
+def load_profile(name: str, beside: Path | None = None, within: Path | None = None) -> Profile:
     """Profile by shipped name or path.
 
     Parameters
@@ -90,29 +92,30 @@ def load_profile(name: str, beside: Path | None = None) -> Profile:
         ``"et-doc-foparq-a"``, or a path ending in ``.toml``.
     beside : Path, optional
         Folder that a relative path starts from.
+    within : Path, optional
+        Folder that neither the profile nor what it extends may lie outside of, if they are not shipped.
+
+    Returns
+    -------
+    Profile
+        One that is not shipped inherits checks, elements and settings of what it extends, never its name, title or
+        norms.
 
     Raises
     ------
     ProfileError
-        If there is none, or something in it is wrong.
+        If there is none, something in it is wrong, or its name or title could be taken for a shipped one.
     """
-    path = _find(name, beside)
+    path = find_profile(name, beside, within)
     text = read_toml(path, ProfileError)
-    data = dict(text.data)
-    digest = hashlib.sha256(path.read_bytes())
-    if "extends" in data:
-        base_path = _find(str(data.pop("extends")), path.parent)
-        base = read_toml(base_path, ProfileError)
-        if "extends" in base.data:
-            raise ProfileError(
-                "profile.extends-twice", file=str(path), line=text.line(("extends",)), value=base_path.stem
-            )
-        digest.update(base_path.read_bytes())
-        checks = _replace(_checks(base), _checks(text), "rule")
-        elements = _replace(_elements(base), _elements(text), "id")
-        data = {**base.data, **data}
-    else:
-        checks, elements = _checks(text), _elements(text)
+    base = _base(text, within)
+    data = {key: value for key, value in text.data.items() if key != "extends"}
+    checks, elements = _checks(text), _elements(text)
+    if base is not None:
+        checks = _replace(_checks(base), checks, "rule")
+        elements = _replace(_elements(base), elements, "id")
+        mine = set() if is_shipped(path) else _OWN_KEYS
+        data = {**{key: value for key, value in base.data.items() if key not in mine}, **data}
     for key in data:
         if key not in _TOP_KEYS:
             raise ProfileError(
@@ -122,21 +125,40 @@ def load_profile(name: str, beside: Path | None = None) -> Profile:
                 key=key,
                 example=", ".join(sorted(_TOP_KEYS)),
             )
+    own = [part for part in (text, base) if part is not None and not is_shipped(part.path)]
+    for part in own:
+        refuse_false_claims(part)
+    refuse_false_elements(text, elements, own=bool(own))
     plain = {key: value for key, value in data.items() if key not in {"check", "element"}}
     made = {
         **plain,
         "checks": tuple(checks),
         "elements": tuple(elements),
         "path": str(path),
-        "sha256": digest.hexdigest(),
+        "sha256": text.sha256 if base is None else _joint_hash(text.sha256, base.sha256),
+        "extends": "" if base is None else base.path.stem if is_shipped(base.path) else str(base.path),
+        "files": tuple(ProfileFile(path=part.path, sha256=part.sha256, bytes=part.size) for part in own),
     }
-    profile = _validated(Profile, made, text, ProfileError)
-    if profile.name in shipped_profiles() and path.parent.resolve() != (shipped("rules") / "profiles").resolve():
-        line = text.line(("name",))
-        raise ProfileError(
-            "profile.name-taken", file=str(path), line=line, value=profile.name, example='name = "my-own"'
-        )
-    return profile
+    return _validated(Profile, made, text, ProfileError)
+
+
+def _base(text: TomlText, within: Path | None) -> TomlText | None:
+    """What a profile extends."""
+    if "extends" not in text.data:
+        return None
+    place = {"file": str(text.path), "line": text.line(("extends",))}
+    name = text.data["extends"]
+    if not isinstance(name, str):
+        raise ProfileError("toml.wrong-value", key="extends", value=name, example=_EXAMPLES["extends"], **place)
+    base = read_toml(find_profile(name, text.path.parent, within, place), ProfileError)
+    if "extends" in base.data:
+        raise ProfileError("profile.extends-twice", value=base.path.stem, **place)
+    return base
+
+
+def _joint_hash(own: str, base: str) -> str:
+    """Hash of a profile and of what it extends: of two lines, the SHA-256 of the one and of the other."""
+    return hashlib.sha256(f"{own}\n{base}\n".encode()).hexdigest()
 
 
 def load_manifest(path: Path) -> Manifest:
@@ -149,20 +171,6 @@ def load_manifest(path: Path) -> Manifest:
     """
     text = read_toml(path, ManifestError)
     return _validated(Manifest, text.data, text, ManifestError)
-
-
-def _find(name: str, beside: Path | None) -> Path:
-    path = None
-    if name.endswith(".toml"):
-        path = (beside or Path()) / name
-    elif "/" not in name and "\\" not in name:
-        path = shipped("rules") / "profiles" / f"{name}.toml"
-    with contextlib.suppress(OSError):  # of a name that is longer than the file system allows
-        if path is not None and path.is_file():
-            return path
-    raise ProfileError(
-        "profile.unknown", value=name[:_SHOWN], known=", ".join(shipped_profiles()), example="et-doc-foparq-a"
-    )
 
 
 def _checks(text: TomlText) -> list[CheckSpec]:

@@ -25,7 +25,7 @@ class DeliverySection(Strict):
     """``[delivery]``: what was delivered and against what it is audited."""
 
     title: str = ""
-    profile: str = "et-doc-foparq-a"  #: a shipped name, or a path
+    profile: str = "et-doc-foparq-a"  #: a shipped name, or a file in the folder
     scale: ScaleText | None = None
     crs: str = "local"
     language: Literal["pt-BR", "en"] | None = None

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Values of profiles and manifests: quantities with units, and tables of which every key is known."""
 
+from enum import StrEnum
 from typing import Annotated
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict
@@ -34,3 +35,11 @@ class Strict(BaseModel):
     """A table of which every key is known."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+class LooserWhen(StrEnum):
+    """Which change of a value lets more pass."""
+
+    LARGER = "larger"
+    SMALLER = "smaller"
+    DIFFERENT = "different"  #: either way, depending on what is delivered

@@ -2,6 +2,7 @@
 """The product specification, typed: which rules on which layers with which tolerances, and which limits."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Literal
 
 from pydantic import Field
@@ -72,11 +73,19 @@ class ReadingSpec(Strict):
 _ENDS = ("undershoot", "overshoot", "free-end")  #: rules that ask whether an end lies on a curve
 
 
+class ProfileFile(Strict):
+    """A file of one's own that a profile was read from."""
+
+    path: Path  #: as found
+    sha256: str
+    bytes: int
+
+
 class Profile(Strict):
     """A product specification."""
 
     name: str
-    title: dict[str, str]  #: per language
+    title: dict[str, str] = Field(default_factory=dict)  #: per language
     product_class: Literal["A", "B"]
     norms: tuple[str, ...] = ()
     scale: str | None = None
@@ -87,7 +96,19 @@ class Profile(Strict):
     checks: tuple[CheckSpec, ...]
     elements: tuple[ElementSpec, ...] = ()
     path: str = ""  #: file it came from
-    sha256: str = ""  #: of that file, and of the one it extends
+    sha256: str = ""  #: of that file; if it extends another, of both
+    extends: str = ""  #: shipped name or path of what it extends
+    files: tuple[ProfileFile, ...] = ()  #: of one's own, that it was read from; none if all of it is shipped
+    changes: tuple[str, ...] = ()  #: what was set otherwise for one run: ``"--set undershoot.reach=5mm"``
+
+    @property
+    def shipped(self) -> bool:
+        """Whether it comes with foparq."""
+        return not self.files
+
+    def titled(self, language: str) -> str:
+        """Title in a language; its name, if it has none."""
+        return self.title.get(language) or self.name
 
     def chord_distance(self, scale: float | None) -> float:
         """Greatest distance between a curve and its chords, metres.

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """TOML with the line of every key, so that an error can say where."""
 
+import hashlib
 import re
 import stat
 import tomllib
@@ -33,6 +34,8 @@ class TomlText:
     path: Path
     data: dict[str, Any]
     lines: dict[Place, int]
+    sha256: str  #: of the bytes that the data were read from
+    size: int  #: bytes
 
     def line(self, place: Sequence[str | int]) -> int:
         """Line of a key, or of the nearest table that holds it; 1-based."""
@@ -56,7 +59,8 @@ def read_toml(path: Path, kind: type[UsageError]) -> TomlText:
         Of that kind: if the file cannot be read, is not UTF-8, or is not TOML.
     """
     try:
-        text = _bytes(path, kind).decode("utf-8-sig")
+        raw = _bytes(path, kind)
+        text = raw.decode("utf-8-sig")
     except OSError as error:
         raise kind("toml.unreadable", file=str(path), value=error.strerror or str(error)) from None
     except UnicodeDecodeError as error:
@@ -79,7 +83,7 @@ def read_toml(path: Path, kind: type[UsageError]) -> TomlText:
         raise kind("toml.long-number", file=str(path), line=line) from None
     if _depth(data) > _DEEPEST:
         raise kind("toml.too-deep", file=str(path), limit=_DEEPEST)
-    return TomlText(path, data, _index(text))
+    return TomlText(path, data, _index(text), hashlib.sha256(raw).hexdigest(), len(raw))
 
 
 def _bytes(path: Path, kind: type[UsageError]) -> bytes:

@@ -36,7 +36,9 @@ from foparq.read.intake import (
     take_companions,
     take_manifest,
     take_once,
+    take_profile,
     take_unnamed,
+    take_unused,
 )
 from foparq.read.raw import RawDrawing
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
@@ -52,6 +54,7 @@ def read_delivery(
     *,
     profile: Profile,
     scale: float | None,
+    unused: Path | None = None,
     progress: Progress | None = None,
 ) -> tuple[Delivery, tuple[str, ...]]:
     """Everything that a manifest names, and what else lies in the folder.
@@ -66,6 +69,8 @@ def read_delivery(
         Its limits and its way of reading hold.
     scale : float, optional
         Denominator k of the drawing scale 1:k, for a sagitta at scale.
+    unused : Path, optional
+        Profile that the manifest names and the reviewer's goes before: hashed and listed.
     progress : callable, optional
         Told the name of each file before it is read.
 
@@ -88,6 +93,9 @@ def read_delivery(
     sweep()
     if manifest_name:
         take_manifest(intake, root, manifest_name)
+    take_profile(intake, root)
+    if unused is not None:
+        take_unused(intake, root, unused)
     for section in manifest.drawing:
         find = partial(inside, root, section.path)
         _drawing(intake, section, shown_path(section.path), find, manifest.confirmed)
@@ -139,6 +147,7 @@ def read_loose(
         name = name_of(path.as_posix())
         section = DrawingSection.model_validate({"path": name, "unit": unit, "plane": plane, "areas": areas})
         _drawing(intake, section, name, path.resolve)
+    take_profile(intake, Path())
     return Delivery(title="", sources=tuple(intake.sources), parts=tuple(intake.drawings)), tuple(intake.crashes)
 
 

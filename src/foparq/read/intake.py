@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What was taken in of a delivery so far: every file is accounted for, with its hash and its state."""
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
@@ -56,6 +57,40 @@ def take_manifest(intake: Intake, root: Path, name: str) -> None:
             items=1,
         )
     )
+
+
+def take_profile(intake: Intake, root: Path) -> None:
+    """Take in the files of a profile that does not come with foparq: what decided is hashed like what was delivered."""
+    for file in intake.profile.files:
+        intake.taken.add(file.path.resolve())
+        source = Source(
+            path=_seen_from(root, file.path),
+            role="profile",
+            sha256=file.sha256,
+            bytes=file.bytes,
+            status=SourceStatus.READ,
+            items=1,
+        )
+        intake.sources.append(source)
+
+
+def take_unused(intake: Intake, root: Path, path: Path) -> None:
+    """Take in a profile that the manifest names and that was not used, because the reviewer states another."""
+    if path.resolve() in intake.taken:
+        return
+    intake.taken.add(path.resolve())
+    source = Source(path=_seen_from(root, path), role="other", sha256="", bytes=0, status=SourceStatus.READ)
+    try:
+        intake.sources.append(identified(source, path, intake.profile.limits.bytes))
+    except InputError:
+        intake.sources.append(replace(source, status=SourceStatus.UNNAMED))
+
+
+def _seen_from(root: Path, path: Path) -> str:
+    """Path relative to a folder if it lies there by its words, else as it is given."""
+    full = Path(os.path.abspath(path))  # noqa: PTH100 - a link is named as it is, not where it leads
+    home = Path(os.path.abspath(root))  # noqa: PTH100
+    return name_of((full.relative_to(home) if full.is_relative_to(home) else path).as_posix())
 
 
 def take_once(intake: Intake, path: Path, name: str) -> None:

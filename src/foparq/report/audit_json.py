@@ -44,7 +44,14 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         "verdict": None if record.loose else record.quality.verdict.value,
         "conclusion": _CONCLUSIONS[record.quality.verdict],
         "why": [_reason(words, reason) for reason in record.quality.why],
-        "profile": {"name": record.profile, "sha256": record.profile_sha256},
+        "profile": {
+            "name": record.profile,
+            "sha256": record.profile_sha256,
+            "title": record.profile_title or record.profile,
+            "shipped": record.profile_shipped,
+            "compared_with": record.compared or None,
+            "changes": list(record.profile_changes),
+        },
         "product_class": record.product_class,
         "scale": f"1:{record.scale:g}" if record.scale else None,
         "inputs": [_source(words, source) for source in record.delivery.sources],
@@ -75,8 +82,17 @@ def _value(value: object) -> object:
 
 
 def _reason(words: Words, reason: Reason) -> dict[str, Any]:
-    fields = {name: _value(value) for name, value in reason.fields}
+    fields = {name: _field(words, value) for name, value in reason.fields}
     return {"id": reason.message, "text": reason_sentence(words, reason), "fields": fields}
+
+
+def _field(words: Words, value: object) -> object:
+    """Field of a reason; reasons within it are written like reasons."""
+    if isinstance(value, Reason):
+        return _reason(words, value)
+    if isinstance(value, tuple) and any(isinstance(part, Reason) for part in value):
+        return [_field(words, part) for part in value]
+    return _value(value)
 
 
 def _source(words: Words, source: Source) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from lxml.builder import ElementMaker
 from foparq.evaluate.measures import measures
 from foparq.evaluate.quality import Element, ElementStatus, Reason, Verdict
 from foparq.report.record import AuditRecord
-from foparq.report.sentences import parameter_name, reason_sentence
+from foparq.report.sentences import parameter_name, reason_sentence, specification
 from foparq.report.words import Words, printable
 
 _ISO = "http://standards.iso.org/iso/"
@@ -102,7 +102,9 @@ class _Report:
         return " ".join([opening, *self._sentences(() if self.record.loose else self.record.quality.why)])
 
     def _specification(self) -> str:
-        return printable(self.record.profile_title or self.record.profile)
+        record = self.record
+        plain = record.profile_shipped and not record.profile_changes
+        return printable(record.profile_title or record.profile) if plain else specification(self.words, record)
 
     def _sentences(self, reasons: Iterable[Reason]) -> Iterator[str]:
         return (reason_sentence(self.words, reason) for reason in reasons)
@@ -192,9 +194,11 @@ class _Report:
 
     def _conformance(self, explanation: str, *, passed: bool) -> _Node:
         record = self.record
+        # What is not shipped cites what it will; that makes it no other name of a norm, nor a profile of foparq.
         citation = _citation(
-            self._specification(), also=record.norms, edition=record.profile_sha256, identifier=record.profile
-        )
+            self._specification(), also=record.norms if record.profile_shipped else (), edition=record.profile_sha256,
+            identifier=record.profile, space="foparq" if record.profile_shipped else "",
+        )  # fmt: skip
         return _mdq.DQ_ConformanceResult(
             _mdq.specification(citation),
             _mdq.explanation(_text(explanation)),
@@ -239,12 +243,15 @@ def _scope(title: str) -> _Node:
     )
 
 
-def _citation(title: str, *, also: Iterable[str] = (), edition: str = "", identifier: str = "") -> _Node:
+def _citation(
+    title: str, *, also: Iterable[str] = (), edition: str = "", identifier: str = "", space: str = ""
+) -> _Node:
     node = _cit.CI_Citation(_cit.title(_text(title)), *(_cit.alternateTitle(_text(norm)) for norm in also))
     if edition:
         node.append(_cit.edition(_text(f"sha256:{edition}")))
     if identifier:
-        node.append(_cit.identifier(_mcc.MD_Identifier(_mcc.code(_text(identifier)), _mcc.codeSpace(_text("foparq")))))
+        spaces = [_mcc.codeSpace(_text(space))] if space else []
+        node.append(_cit.identifier(_mcc.MD_Identifier(_mcc.code(_text(identifier)), *spaces)))
     return node
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Everything the reports are written from: one finished audit."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from foparq.evaluate.quality import QualityReport
@@ -29,3 +30,7 @@ class AuditRecord:
     written: int = 100_000  #: findings written in full per rule; counting is never capped
     crashed: tuple[str, ...] = ()  #: files of reports that foparq failed to make
     norms: tuple[str, ...] = ()  #: what the profile cites, with dates
+    profile_titles: Mapping[str, str] = field(default_factory=dict)  #: by language
+    profile_shipped: bool = True  #: false: a profile of somebody's own, in files that are among the inputs
+    profile_changes: tuple[str, ...] = ()  #: what was set otherwise for this run
+    compared: str = ""  #: shipped profile that one of somebody's own was compared with

@@ -15,6 +15,7 @@ from foparq.findings.outcome import Outcome, SetAside
 from foparq.findings.table import Findings
 from foparq.model.delivery import Source
 from foparq.model.drawing import Skipped
+from foparq.report.record import AuditRecord
 from foparq.report.words import Words, printable
 
 _MEASURE = "measure-"  #: a count that has an ISO 19157 measure of its own
@@ -100,7 +101,37 @@ def _manuals() -> dict[str, str]:
 
 def reason_sentence(words: Words, reason: Reason) -> str:
     """Sentence of a reason of the evaluation: ``evaluate.ID`` with its fields."""
-    return words(f"evaluate.{reason.message}", **dict(reason.fields))
+    fields = {name: _told(words, value) for name, value in reason.fields}
+    return words(f"evaluate.{reason.message}", **fields)
+
+
+def _told(words: Words, value: object) -> object:
+    """Reasons within a reason as their sentences."""
+    if isinstance(value, Reason):
+        return reason_sentence(words, value)
+    if isinstance(value, tuple) and value and all(isinstance(part, Reason) for part in value):
+        return words.joined(reason_sentence(words, part) for part in value)
+    return value
+
+
+def specification(words: Words, record: AuditRecord) -> str:
+    """Title and name of the profile, and that it does not come with foparq or was changed, where that is so."""
+    title = record.profile_titles.get(words.language) or record.profile_title or record.profile
+    named = printable(title if title == record.profile else f"{title} ({record.profile})")
+    if not record.profile_shipped:
+        files = [source.path for source in record.delivery.sources if source.role == "profile"]
+        return words("report.specification.own", title=named, files=files)
+    if record.profile_changes:
+        return words("report.specification.changed", title=named, changes=list(record.profile_changes))
+    return named
+
+
+def scale_text(words: Words, record: AuditRecord) -> str:
+    """Drawing scale: ``"1:50"``."""
+    if not record.scale:
+        return words("report.fact.no-scale")
+    text = f"1:{record.scale:g}"
+    return text.replace(".", ",") if words.language == "pt-BR" else text
 
 
 def element_title(words: Words, element: Element) -> str:

@@ -8,7 +8,7 @@ domain ``rules``, in one file a rule under ``rules/texts``. A message is named `
 
 import gettext
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 
 from foparq.errors import FoparqError
@@ -69,6 +69,11 @@ class Words:
             return rule_text(key, self.language)
         text = self._catalogue(domain).gettext(key)
         return None if text == key else text
+
+    def joined(self, sentences: Iterable[str]) -> str:
+        """Sentences one behind the other; what is no whole sentence is parted by semicolons."""
+        made = list(sentences)
+        return (" " if all(text.endswith(".") for text in made) else "; ").join(made)
 
     def error(self, error: FoparqError) -> str:
         """Sentence of an error."""

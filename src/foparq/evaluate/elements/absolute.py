@@ -11,8 +11,8 @@ from foparq.evaluate.evidence import Evidence, element, judged, limit_of
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters, with_doubts
-from foparq.evaluate.tied import AXES, tied_points, unchecked
-from foparq.profile.elements import AbsoluteSpec
+from foparq.evaluate.tied import tied_points, unchecked
+from foparq.profile.elements import AXES, AbsoluteSpec
 
 
 @evaluates(AbsoluteSpec, measure="39")

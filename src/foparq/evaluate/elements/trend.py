@@ -12,9 +12,9 @@ from foparq.columns import Reals
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
-from foparq.evaluate.tied import AXES, tied_points
+from foparq.evaluate.tied import tied_points
 from foparq.model.tables import Checkpoints
-from foparq.profile.elements import TrendSpec
+from foparq.profile.elements import AXES, TrendSpec
 
 _MEASURE = "foparq:trend"
 _FEWEST = 3  #: two differences have one degree of freedom: hardly any trend would show

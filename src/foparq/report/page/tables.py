@@ -16,7 +16,9 @@ from foparq.report.sentences import (
     element_title,
     parameter_name,
     reason_sentence,
+    scale_text,
     source_sentence,
+    specification,
 )
 from foparq.report.words import Words, printable
 
@@ -116,17 +118,19 @@ def title(words: Words, record: AuditRecord) -> str:
     """Title of the delivery; for loose files their names."""
     if record.delivery.title:
         return printable(record.delivery.title)
-    names = [printable(PurePosixPath(source.path).name or source.path) for source in record.delivery.sources]
+    files = [source.path for source in record.delivery.sources if source.role != "profile"]
+    names = [printable(PurePosixPath(path).name or path) for path in files]
     if not record.loose or not names:
         return words("report.page.untitled")
-    files = ", ".join(names[:_FILES_NAMED])
+    first = ", ".join(names[:_FILES_NAMED])
     more = len(names) - _FILES_NAMED
-    return words("report.page.and-more", files=files, more=words.count(more)) if more > 0 else files
+    return words("report.page.and-more", files=first, more=words.count(more)) if more > 0 else first
 
 
 def _judged(words: Words, record: AuditRecord) -> tuple[str, str]:
     verdict = record.quality.verdict
-    return verdict.value, words(f"report.headline.{verdict.value}")
+    sentence = words(f"report.headline.{verdict.value}")
+    return verdict.value, sentence if record.profile_shipped else f"{sentence} {words('report.headline.own-profile')}"
 
 
 def _loose(words: Words, record: AuditRecord, faults: Sequence[Group]) -> tuple[str, str]:
@@ -157,11 +161,10 @@ def _gaps(words: Words, record: AuditRecord) -> tuple[str, ...]:
 
 
 def _facts(words: Words, record: AuditRecord) -> tuple[tuple[str, str], ...]:
-    scale = f"1:{record.scale:g}" if record.scale else words("report.fact.no-scale")
     facts = [
-        ("profile", f"{printable(record.profile_title)} ({printable(record.profile)})"),
+        ("profile", specification(words, record)),
         ("class", words(f"report.fact.class-{record.product_class}")),
-        ("scale", scale.replace(".", ",") if words.language == "pt-BR" else scale),
+        ("scale", scale_text(words, record)),
     ]
     if record.started:
         facts.append(("date", moment(words, record.started)))
