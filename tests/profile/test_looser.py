@@ -298,6 +298,7 @@ def test_some_tolerances_find_less_either_way(rule: str, wide: list[str], narrow
 def test_a_contradiction_of_units_is_overlooked_by_a_wide_agreement() -> None:
     entry = next(one for one in all_rules().values() if one.name == "unit-contradiction")
     row = UnitEvidence(
+        witness=np.array(["header"], dtype=object),
         says=np.array([0.001]), used=np.array([1.0]), weight=np.array([0.0]),
         where=np.array([shapely.Point(0, 0)], dtype=object), **nameless(1),
     )  # fmt: skip
