@@ -4,6 +4,7 @@
 import math
 from collections import defaultdict
 
+from foparq.errors import QuantityError
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Reason, because
 from foparq.profile.schema import Profile
@@ -26,7 +27,7 @@ def scale_doubts(profile: Profile, evidence: Evidence) -> tuple[list[Reason], li
         Both empty if no scale is stated, or a person confirms it.
     """
     scale = evidence.scale
-    if scale is None or evidence.confirmation("scale", f"1:{scale:g}") is not None:
+    if scale is None or any(one.what == "scale" and _names(one.value, scale) for one in evidence.delivery.confirmed):
         return [], []
     doubts, spec = [], profile.evidence
     if spec and spec.finest and spec.coarsest:
@@ -37,6 +38,13 @@ def scale_doubts(profile: Profile, evidence: Evidence) -> tuple[list[Reason], li
     witnesses = _against(evidence, scale)
     told = [because("scale.contradicted", scale=f"1:{scale:g}", witnesses=witnesses)] if witnesses else []
     return (doubts + told, []) if len(witnesses) >= _WITNESSES else (doubts, told)
+
+
+def _names(text: str, scale: float) -> bool:
+    try:
+        return math.isclose(parse_scale(text), scale)
+    except QuantityError:
+        return False
 
 
 def _against(evidence: Evidence, scale: float) -> list[str]:

@@ -68,7 +68,7 @@ Said = Annotated[str, BeforeValidator(_said)]
 class ConfirmedSection(Strict):
     """``[[confirmed]]``: a statement that witnesses contradict, confirmed by a person."""
 
-    what: Literal["unit", "plane", "scale", "crs", "checkpoints", "distances"]
+    what: Literal["unit", "plane", "scale", "checkpoints", "distances"]
     value: Said  #: what is confirmed; of ``checkpoints`` and ``distances``: ``"not drawn"``
     by: Said  #: who answers for it
     reason: Said

@@ -18,9 +18,7 @@ from foparq.model.delivery import Delivery, Source, SourceStatus
 from foparq.model.drawing import Drawing
 from foparq.model.items import Items, Role
 from foparq.model.plane import Plane, plane_of
-from foparq.model.statements import Confirmation
 from foparq.model.tables import Checkpoints, Distances, FeatureList
-from foparq.names import folded
 from foparq.profile.manifest import ConfirmedSection, DrawingSection, Manifest, TableSection
 from foparq.profile.schema import Profile
 from foparq.read.guard.parent import guarded
@@ -41,6 +39,7 @@ from foparq.read.intake import (
     take_unused,
 )
 from foparq.read.raw import RawDrawing
+from foparq.read.statements import confirmed, confirms
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
 
 S = TypeVar("S", bound=TableSection)
@@ -89,6 +88,7 @@ def read_delivery(
     QuantityError
         If the profile's sagitta is meant at scale and no scale is given.
     """
+    confirmations = confirmed(manifest, manifest_name)
     intake = Intake(profile=profile, scale=scale, progress=progress)
     sweep()
     if manifest_name:
@@ -106,7 +106,7 @@ def read_delivery(
     delivery = Delivery(
         title=manifest.delivery.title or root.resolve().name, sources=tuple(intake.sources),
         parts=tuple(intake.drawings), checkpoints=checkpoints, distances=distances, features=features,
-        confirmed=tuple(Confirmation(**section.model_dump()) for section in manifest.confirmed),
+        confirmed=confirmations,
     )  # fmt: skip
     return delivery, tuple(intake.crashes)
 
@@ -229,15 +229,8 @@ def _joined(raw: RawDrawing, section: DrawingSection, name: str, confirmed: Sequ
     return Drawing(
         path=name, items=raw.items, reading=raw.reading, unit=raw.unit, plane=plane,
         facade=section.facade, classes=dict(section.classes), areas=section.areas,
-        confirmed=frozenset(one.what for one in confirmed if _confirms(one, section)),
+        confirmed=frozenset(one.what for one in confirmed if confirms(one, section)),
     )  # fmt: skip
-
-
-def _confirms(one: ConfirmedSection, section: DrawingSection) -> bool:
-    """Whether a person confirms what the manifest states of a drawing."""
-    stated = {"unit": section.unit, "plane": section.plane}.get(one.what)
-    same = isinstance(stated, str) and folded(stated) == folded(one.value)
-    return same and one.path in {"", section.path}
 
 
 def _plane(items: Items, section: DrawingSection) -> Plane:

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+"""What people confirm by name in the manifest."""
+
+from foparq.errors import ManifestError
+from foparq.model.statements import Confirmation
+from foparq.names import folded
+from foparq.profile.manifest import ConfirmedSection, DrawingSection, Manifest
+
+_NOT_DRAWN = "not drawn"
+
+
+def confirmed(manifest: Manifest, file: str) -> tuple[Confirmation, ...]:
+    """Confirmations of a manifest, in its order.
+
+    Parameters
+    ----------
+    file : str
+        Its name, for errors.
+
+    Raises
+    ------
+    ManifestError
+        If one speaks of nothing that the manifest states: a slip would leave open what somebody means to have settled.
+    """
+    for one in manifest.confirmed:
+        stated = _stated(one, manifest)
+        if stated is not None and folded(one.value) not in {folded(value) for value in stated}:
+            example = ", ".join(f'value = "{value}"' for value in dict.fromkeys(stated))
+            raise ManifestError(
+                "manifest.confirms-nothing", file=file, key=f"confirmed.{one.what}", value=one.value,
+                example=example or f'{one.what} = "{one.value}"',
+            )  # fmt: skip
+    return tuple(Confirmation(**one.model_dump()) for one in manifest.confirmed)
+
+
+def confirms(one: ConfirmedSection, section: DrawingSection) -> bool:
+    """Whether a person confirms what the manifest states of a drawing."""
+    stated = {"unit": section.unit, "plane": section.plane}.get(one.what)
+    same = isinstance(stated, str) and folded(stated) == folded(one.value)
+    return same and one.path in {"", section.path}
+
+
+def _stated(one: ConfirmedSection, manifest: Manifest) -> list[str] | None:
+    """Values that could be confirmed; ``None`` if any may be: a scale may be the reviewer's."""
+    if one.what in {"checkpoints", "distances"}:
+        return [_NOT_DRAWN]
+    if one.what in {"unit", "plane"}:
+        drawings = [section for section in manifest.drawing if one.path in {"", section.path}]
+        return [value for section in drawings if isinstance(value := getattr(section, one.what), str)]
+    return None
