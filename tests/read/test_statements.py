@@ -9,7 +9,7 @@ from foparq.read.statements import confirmed, confirms
 
 
 def manifest(what: str, value: str, path: str = "") -> Manifest:
-    drawings = [{"path": "a.dxf", "unit": "MM", "plane": "xz"}, {"path": "b.dxf", "unit": "m"}]
+    drawings = [{"path": "a.dxf", "unit": "mm", "plane": "xz"}, {"path": "b.dxf", "unit": "m"}]
     one = {"what": what, "value": value, "by": "a name", "reason": "a reason", "path": path}
     return Manifest.model_validate({"drawing": drawings, "confirmed": [one]}) if what else Manifest()
 
@@ -32,7 +32,7 @@ def test_what_is_stated_can_be_confirmed(what: str, value: str, path: str, files
 @pytest.mark.parametrize(
     ("what", "value", "path", "example"),
     [
-        ("unit", "km", "", 'value = "MM", value = "m"'), ("unit", "m", "a.dxf", 'value = "MM"'),
+        ("unit", "km", "", 'value = "mm", value = "m"'), ("unit", "m", "a.dxf", 'value = "mm"'),
         ("plane", "xy", "", 'value = "xz"'), ("plane", "xy", "b.dxf", 'plane = "xy"'),
         ("checkpoints", "yes", "", 'value = "not drawn"'),
     ],
