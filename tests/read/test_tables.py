@@ -14,7 +14,7 @@ from foparq.report.words import LANGUAGES, Words
 METRES = SurveySection(path="t.csv")
 ENGLISH = b"id,x,y,z,xd,yd,zd\nP1,1.000,2.000,3.000,1.002,2.001,3.00\nP2,4.000,5.000,6.000,4.001,,\n"
 QUOTED = (
-    b'# exported\n\n"ID","E (m)","N (m)","H (m)","XD","YD","ZD"\n'
+    b'\n"ID","E (m)","N (m)","H (m)","XD","YD","ZD"\n'
     b'"P1","1,000","2,000","3,000","1,002","2,001","3,00"\nP2,"4,000","5,000","6,000","4,001",,\n'
 )
 PORTUGUESE = (
@@ -150,7 +150,7 @@ def test_what_is_no_such_table_is_refused(tmp_path: Path, data: bytes, message: 
 
 
 def test_lines_are_counted_as_the_file_has_them(tmp_path: Path) -> None:
-    error = fault(written(tmp_path, 'id;x;y;z;nota\n\nP1;1;2;3;"duas\nlinhas"\n# nada\nP2;1;?;3;\n'))
+    error = fault(written(tmp_path, 'id;x;y;z;nota\n\nP1;1;2;3;"duas\nlinhas"\n\nP2;1;?;3;\n'))
     assert error.fields["line"] == 6
 
 

@@ -4,6 +4,7 @@
 from dataclasses import dataclass
 
 from foparq.columns import Flags, Index, Reals, Texts
+from foparq.model.drawing import Skipped
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -15,6 +16,7 @@ class Checkpoints:
     delivered: Reals  #: (n, 3) X, Y, Z; NaN where not delivered
     resolution: Reals  #: (3,) half the last printed digit of surveyed plus delivered, per axis, metres
     survey_sd: float | None  #: standard deviation of the survey, metres; ``None`` if not stated
+    skipped: tuple[Skipped, ...] = ()  #: what of the file is no row of it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,6 +28,7 @@ class Distances:
     delivered: Reals  #: (n,) in the delivery; NaN where not delivered
     resolution: float  #: half the last printed digit of measured plus delivered, metres
     survey_sd: float | None  #: standard deviation of the survey, metres; ``None`` if not stated
+    skipped: tuple[Skipped, ...] = ()  #: what of the file is no row of it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,6 +43,7 @@ class FeatureList:
     accepted: Texts  #: (n,) code of an accepted omission, ``""`` if none
     evidence: Texts  #: (n,) what supports the accepted omission
     ignored: tuple[str, ...] = ()  #: columns of the file that no check uses
+    skipped: tuple[Skipped, ...] = ()  #: what of the file is no row of it
 
     def required(self) -> Flags:
         """(n,) true where the contract demands the feature."""

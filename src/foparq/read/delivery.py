@@ -240,5 +240,5 @@ def _table(intake: Intake, root: Path, role: str, section: S | None, read: Calla
     except InputError as error:
         intake.sources.append(refused(source, name, error.message, error.fields))
         return None
-    intake.sources.append(replace(source, status=SourceStatus.READ, items=len(table.id)))
+    intake.sources.append(replace(source, status=SourceStatus.READ, items=len(table.id), skipped=table.skipped))
     return table

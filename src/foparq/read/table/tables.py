@@ -1,71 +1,31 @@
 # SPDX-License-Identifier: MIT
-"""Checkpoints, distances and the list of specified features, from CSV.
-
-Names of columns are understood in English and Portuguese; the tables below list them. Columns that nobody asked for
-are left alone.
-"""
+"""Checkpoints, distances and the list of specified features. Columns that nobody asked for are left alone."""
 
 import math
-from collections.abc import Mapping, Sequence
-from fractions import Fraction
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from foparq.columns import Index, Reals, Texts
+from foparq.columns import Index, Texts
 from foparq.errors import UnreadableError
 from foparq.model.tables import Checkpoints, Distances, FeatureList
 from foparq.profile.manifest import SurveySection
-from foparq.read.table.csv_text import Sheet, number_of, read_sheet, unit_in_header
+from foparq.read.table.csv_text import read_text
+from foparq.read.table.names import CHECKPOINT_COLUMNS, DISTANCE_COLUMNS, FEATURE_COLUMNS, unit_in_header
+from foparq.read.table.numbers import lengths_of, number_of
+from foparq.read.table.sheet import Asked, Sheet
 from foparq.units import parse_length_unit
 
-_ID = ("ponto", "point", "nome", "name", "código", "code", "identificador", "ident", "nº", "no")
-CHECKPOINT_COLUMNS: Mapping[str, Sequence[str]] = {
-    "id": _ID,
-    "x": ("e", "este", "leste", "easting", "x levantado", "x surveyed", "x campo", "x referência", "x ref"),
-    "y": ("n", "norte", "northing", "y levantado", "y surveyed", "y campo", "y referência", "y ref"),
-    "z": (
-        "h",
-        "cota",
-        "altitude",
-        "height",
-        "elevation",
-        "z levantado",
-        "z surveyed",
-        "z campo",
-        "z referência",
-        "z ref",
-    ),
-    "xd": ("x entregue", "x delivered", "x desenho", "x drawing", "x restituído", "x medido"),
-    "yd": ("y entregue", "y delivered", "y desenho", "y drawing", "y restituído", "y medido"),
-    "zd": ("z entregue", "z delivered", "z desenho", "z drawing", "z restituído", "z medido"),
-}
-DISTANCE_COLUMNS: Mapping[str, Sequence[str]] = {
-    "id": (*_ID, "distância", "distance"),
-    "from": ("de", "start", "início", "do ponto", "point a", "ponto a"),
-    "to": ("para", "até", "end", "fim", "ao ponto", "point b", "ponto b"),
-    "measured": ("medida", "medido", "trena", "tape", "referência", "reference", "campo"),
-    "delivered": ("entregue", "desenho", "drawing", "restituída", "restituído"),
-}
-FEATURE_COLUMNS: Mapping[str, Sequence[str]] = {
-    "id": (*_ID, "feição", "feature"),
-    "class": ("classe", "feature class", "tipo", "categoria"),
-    "facade": ("fachada", "façade", "lado", "elevation", "elevação"),
-    "count": ("quantidade", "qtd", "qtde", "contagem", "quantity"),
-    "use": ("uso", "exigência", "obrigatoriedade"),
-    "omission_accepted": ("omissão aceita", "motivo da omissão", "accepted omission"),
-    "evidence": ("evidência", "prova", "comprovação", "justificativa"),
-}
 _USES = {
     "required": ("", "required", "obrigatório", "obrigatória", "exigido", "exigida"),
     "optional": ("optional", "opcional", "facultativo", "facultativa"),
     "prohibited": ("prohibited", "proibido", "proibida", "vedado", "vedada"),
 }
 OMISSIONS = ("OCCL", "ADJ", "ACCESS", "RES", "DEMOL", "HIDDEN")
-_CHECKPOINT_LINE = "id;x;y;z;xd;yd;zd"
-_DISTANCE_LINE = "id;from;to;measured;delivered"
-_FEATURE_LINE = "id;class;facade;count;use"
-_MOST_DIGITS = 30  #: decimals or powers of ten beyond any length
+_CHECKPOINTS = Asked(known=CHECKPOINT_COLUMNS, required=("id", "x", "y", "z"), example="id;x;y;z;xd;yd;zd")
+_DISTANCES = Asked(known=DISTANCE_COLUMNS, required=("id", "measured"), example="id;from;to;measured;delivered")
+_FEATURES = Asked(known=FEATURE_COLUMNS, required=("id", "class"), example="id;class;facade;count;use")
 
 
 def read_checkpoints(path: Path, section: SurveySection) -> Checkpoints:
@@ -91,11 +51,11 @@ def read_checkpoints(path: Path, section: SurveySection) -> Checkpoints:
     UnreadableError
         If a cell, a row or a column is wrong; the error names file, line, column and value.
     """
-    sheet = read_sheet(path, known=CHECKPOINT_COLUMNS, required=("id", "x", "y", "z"), example=_CHECKPOINT_LINE)
+    sheet = read_text(path, _CHECKPOINTS)
     unit = _unit(sheet, section, ("x", "y", "z", "xd", "yd", "zd"))
     ids = _ids(sheet, example="P01")
-    surveyed = [_numbers(sheet, axis, unit, required=True) for axis in ("x", "y", "z")]
-    delivered = [_numbers(sheet, axis, unit, required=False) for axis in ("xd", "yd", "zd")]
+    surveyed = [lengths_of(sheet, axis, unit, required=True) for axis in ("x", "y", "z")]
+    delivered = [lengths_of(sheet, axis, unit, required=False) for axis in ("xd", "yd", "zd")]
     _one_decimal_sign(sheet, ("x", "y", "z", "xd", "yd", "zd"))
     halves = [one + other for (_, one), (_, other) in zip(surveyed, delivered, strict=True)]
     return Checkpoints(
@@ -104,6 +64,7 @@ def read_checkpoints(path: Path, section: SurveySection) -> Checkpoints:
         delivered=np.column_stack([values for values, _ in delivered]),
         resolution=np.array(halves),
         survey_sd=section.survey_sd.si() if section.survey_sd else None,
+        skipped=sheet.skipped,
     )
 
 
@@ -128,11 +89,11 @@ def read_distances(path: Path, section: SurveySection) -> Distances:
     UnreadableError
         If a cell, a row or a column is wrong, or a length is not positive.
     """
-    sheet = read_sheet(path, known=DISTANCE_COLUMNS, required=("id", "measured"), example=_DISTANCE_LINE)
+    sheet = read_text(path, _DISTANCES)
     unit = _unit(sheet, section, ("measured", "delivered"))
     ids = _ids(sheet, example="D01")
-    measured, half = _numbers(sheet, "measured", unit, required=True)
-    delivered, other = _numbers(sheet, "delivered", unit, required=False)
+    measured, half = lengths_of(sheet, "measured", unit, required=True)
+    delivered, other = lengths_of(sheet, "delivered", unit, required=False)
     _one_decimal_sign(sheet, ("measured", "delivered"))
     for column, values in (("measured", measured), ("delivered", delivered)):
         wrong = np.flatnonzero(values <= 0)
@@ -140,7 +101,7 @@ def read_distances(path: Path, section: SurveySection) -> Distances:
             raise sheet.fault("table.not-positive", int(wrong[0]), column, example="2.345")
     return Distances(
         id=ids, measured=measured, delivered=delivered, resolution=half + other,
-        survey_sd=section.survey_sd.si() if section.survey_sd else None,
+        survey_sd=section.survey_sd.si() if section.survey_sd else None, skipped=sheet.skipped,
     )  # fmt: skip
 
 
@@ -164,7 +125,7 @@ def read_feature_list(path: Path) -> FeatureList:
         If an id is missing or used twice, a class is missing, a count is no whole number from 0, a use or a code is
         unknown, or an accepted omission names no evidence.
     """
-    sheet = read_sheet(path, known=FEATURE_COLUMNS, required=("id", "class"), example=_FEATURE_LINE)
+    sheet = read_text(path, _FEATURES)
     uses = {spelled: use for use, words in _USES.items() for spelled in words}
     use = [uses.get(text.casefold(), "") for text in sheet.texts("use")]
     accepted = [text.upper() for text in sheet.texts("omission_accepted")]
@@ -187,6 +148,7 @@ def read_feature_list(path: Path) -> FeatureList:
         accepted=_column(accepted),
         evidence=_column(evidence),
         ignored=sheet.ignored,
+        skipped=sheet.skipped,
     )
 
 
@@ -230,33 +192,6 @@ def _one_decimal_sign(sheet: Sheet, columns: Sequence[str]) -> None:
         if len(seen) == 2:  # noqa: PLR2004 - both signs
             _, (row_of, column_of) = seen.popitem()
             raise sheet.fault("table.two-decimal-signs", row_of, column_of, example="1234.5")
-
-
-def _numbers(sheet: Sheet, column: str, unit: float, *, required: bool) -> tuple[Reals, float]:
-    # Values in metres (n,), NaN where empty, and half a unit of the last digit in metres.
-    values: Reals = np.full(len(sheet.rows), np.nan)
-    factor = Fraction(repr(unit))
-    decimals: list[int] = []
-    for row, text in enumerate(sheet.texts(column)):
-        if not text:
-            if required:
-                raise sheet.fault("table.cell-empty", row, column, example="12.345")
-            continue
-        number = number_of(text)
-        if number is None or abs(number.decimals) > _MOST_DIGITS:
-            raise sheet.fault("table.not-a-number", row, column, example="1234.5")
-        values[row] = float(Fraction(number.value) * factor)
-        decimals.append(number.decimals)
-    if not decimals:
-        return values, 0.0
-    return values, float(Fraction(1, 2) * Fraction(10) ** -_written_decimals(decimals) * factor)
-
-
-def _written_decimals(decimals: list[int]) -> int:
-    """Decimals to which a column was written: spreadsheets drop trailing zeros, one number in ten loses one."""
-    most = max(decimals)
-    full = sum(1 for count in decimals if count == most)
-    return most if full * 3 >= len(decimals) * 2 else min(decimals)
 
 
 def _counts(sheet: Sheet) -> Index:
