@@ -25,7 +25,7 @@ from foparq.read.guard.paths import inside
 from foparq.report.words import LANGUAGES, Words
 
 pytestmark = pytest.mark.usefixtures("alone")
-POINTS = "id;x;y;z;xd;yd;zd\nP1;1,000;2,000;3,000;1,002;2,001;3,000\n"
+POINTS = "id;x;y;z;xd;yd;zd\nP1;1,0000;2,0000;3,0000;1,0020;2,0010;3,0000\n"
 
 
 @pytest.fixture

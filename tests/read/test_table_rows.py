@@ -4,7 +4,7 @@
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from foparq.errors import UnreadableError
@@ -39,6 +39,7 @@ def test_an_id_may_begin_with_any_sign(tmp_path: Path, name: str, separator: str
     assert points.surveyed.tolist() == [[1.5, 2.5, 3.5], [4.5, 5.5, 6.5]]
 
 
+@settings(max_examples=60, deadline=None, derandomize=True)
 @given(st.lists(st.text(st.sampled_from(SIGNS.replace(";", "") + "aP19"), min_size=1, max_size=4), unique=True))
 def test_as_many_rows_are_read_as_were_written(tmp_path_factory: pytest.TempPathFactory, ids: list[str]) -> None:
     text = "id;measured\n" + "".join(f"{name};{n + 1}\n" for n, name in enumerate(ids))

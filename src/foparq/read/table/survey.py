@@ -3,7 +3,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +12,9 @@ from foparq.errors import InputError
 from foparq.model.delivery import LOST
 from foparq.model.drawing import Drawing
 from foparq.profile.manifest import SurveySection
-from foparq.profile.schema import Profile
+from foparq.profile.schema import LimitsSpec, Profile
 from foparq.read.delivery import read_loose
+from foparq.read.guard.parent import guarded
 from foparq.read.guard.paths import files_of
 from foparq.read.guard.sniff import format_of
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
@@ -63,7 +63,7 @@ def survey_folder(folder: Path, profile: Profile) -> Survey:
         if not (folder / name).is_file():
             others.append(name)
             continue
-        role = _table_role(folder / name)
+        role = _table_role(folder / name, profile.limits)
         if role:
             tables[role] = (*tables.get(role, ()), name)
         elif drawing := _drawing(folder / name, profile):
@@ -73,23 +73,23 @@ def survey_folder(folder: Path, profile: Profile) -> Survey:
     return Survey(drawings=tuple(drawings), tables=tables, others=tuple(others))
 
 
-def _table_role(path: Path) -> str:
+def _table_role(path: Path, limits: LimitsSpec) -> str:
     if path.suffix.lower() not in _TABLES:
         return ""
-    section = SurveySection(path=path.name)
-    readers: dict[str, Callable[[], object]] = {
-        "checkpoints": partial(read_checkpoints, path, section),
-        "distances": partial(read_distances, path, section),
-        "features": partial(read_feature_list, path),
+    readers: dict[str, Callable[..., object]] = {
+        "checkpoints": read_checkpoints,
+        "distances": read_distances,
+        "features": read_feature_list,
     }
-    return next((role for role, reader in readers.items() if _reads(reader)), "")
+    return next((role for role, reader in readers.items() if _reads(reader, path, limits)), "")
 
 
-def _reads(reader: Callable[[], object]) -> bool:
+def _reads(reader: Callable[..., object], path: Path, limits: LimitsSpec) -> bool:
+    section = SurveySection(path=path.name)
     try:
-        reader()
-    except InputError:
-        return False
+        guarded(reader, path, section, file=path.name, seconds=limits.seconds, memory=limits.memory)
+    except InputError as error:
+        return error.message == "table.thousands"  # its drawing may prove what it says
     return True
 
 

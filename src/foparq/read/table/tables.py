@@ -2,19 +2,21 @@
 """Checkpoints, distances and the list of specified features. Columns that nobody asked for are left alone."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from foparq.columns import Index, Texts
+from foparq.columns import Flags, Index, Reals, Texts
 from foparq.errors import UnreadableError
 from foparq.model.tables import Checkpoints, Distances, FeatureList
-from foparq.profile.manifest import SurveySection
+from foparq.profile.manifest import SurveySection, TableSection
 from foparq.read.table.csv_text import read_text
+from foparq.read.table.extent import Extent, lengths_are_decimal, points_are_decimal
 from foparq.read.table.names import CHECKPOINT_COLUMNS, DISTANCE_COLUMNS, FEATURE_COLUMNS, unit_in_header
 from foparq.read.table.numbers import lengths_of, number_of
 from foparq.read.table.sheet import Asked, Sheet
+from foparq.read.table.signs import doubtful_cells, one_decimal_sign, thousands_fault
 from foparq.units import parse_length_unit
 
 _USES = {
@@ -22,13 +24,15 @@ _USES = {
     "optional": ("optional", "opcional", "facultativo", "facultativa"),
     "prohibited": ("prohibited", "proibido", "proibida", "vedado", "vedada"),
 }
+_SURVEYED, _DELIVERED = ("x", "y", "z"), ("xd", "yd", "zd")
+_LENGTHS = ("measured", "delivered")
 OMISSIONS = ("OCCL", "ADJ", "ACCESS", "RES", "DEMOL", "HIDDEN")
 _CHECKPOINTS = Asked(known=CHECKPOINT_COLUMNS, required=("id", "x", "y", "z"), example="id;x;y;z;xd;yd;zd")
 _DISTANCES = Asked(known=DISTANCE_COLUMNS, required=("id", "measured"), example="id;from;to;measured;delivered")
 _FEATURES = Asked(known=FEATURE_COLUMNS, required=("id", "class"), example="id;class;facade;count;use")
 
 
-def read_checkpoints(path: Path, section: SurveySection) -> Checkpoints:
+def read_checkpoints(path: Path, section: SurveySection, extents: Sequence[Extent] = ()) -> Checkpoints:
     """Checkpoints of a CSV table with columns ``id, x, y, z`` (surveyed) and ``xd, yd, zd`` (delivered).
 
     Parameters
@@ -37,6 +41,8 @@ def read_checkpoints(path: Path, section: SurveySection) -> Checkpoints:
         The table.
     section : SurveySection
         Unit of its numbers and standard deviation of the survey, from the manifest.
+    extents : sequence of Extent
+        Of the drawings: they may prove that 12.345 is twelve and a bit.
 
     Returns
     -------
@@ -49,26 +55,28 @@ def read_checkpoints(path: Path, section: SurveySection) -> Checkpoints:
     Raises
     ------
     UnreadableError
-        If a cell, a row or a column is wrong; the error names file, line, column and value.
+        If a cell, a row or a column is wrong, or numbers could be decimals or thousands; the error names file, line,
+        column and value.
     """
     sheet = read_text(path, _CHECKPOINTS)
-    unit = _unit(sheet, section, ("x", "y", "z", "xd", "yd", "zd"))
+    unit = _unit(sheet, section, (*_SURVEYED, *_DELIVERED))
     ids = _ids(sheet, example="P01")
-    surveyed = [lengths_of(sheet, axis, unit, required=True) for axis in ("x", "y", "z")]
-    delivered = [lengths_of(sheet, axis, unit, required=False) for axis in ("xd", "yd", "zd")]
-    _one_decimal_sign(sheet, ("x", "y", "z", "xd", "yd", "zd"))
-    halves = [one + other for (_, one), (_, other) in zip(surveyed, delivered, strict=True)]
+    values, halves = _lengths(sheet, (*_SURVEYED, *_DELIVERED), unit, required=_SURVEYED)
+    doubtful = doubtful_cells(sheet, (*_SURVEYED, *_DELIVERED))
+    axes = [_doubtful(values, doubtful, pair) for pair in zip(_SURVEYED, _DELIVERED, strict=True)]
+    if doubtful and not points_are_decimal(axes, extents):
+        raise thousands_fault(sheet, doubtful, section.unit)
     return Checkpoints(
         id=ids,
-        surveyed=np.column_stack([values for values, _ in surveyed]),
-        delivered=np.column_stack([values for values, _ in delivered]),
-        resolution=np.array(halves),
+        surveyed=np.column_stack([values[axis] for axis in _SURVEYED]),
+        delivered=np.column_stack([values[axis] for axis in _DELIVERED]),
+        resolution=np.array([halves[x] + halves[xd] for x, xd in zip(_SURVEYED, _DELIVERED, strict=True)]),
         survey_sd=section.survey_sd.si() if section.survey_sd else None,
         skipped=sheet.skipped,
     )
 
 
-def read_distances(path: Path, section: SurveySection) -> Distances:
+def read_distances(path: Path, section: SurveySection, extents: Sequence[Extent] = ()) -> Distances:
     """Distances of a CSV table with columns ``id, from, to, measured, delivered``.
 
     Parameters
@@ -77,6 +85,8 @@ def read_distances(path: Path, section: SurveySection) -> Distances:
         The table.
     section : SurveySection
         Unit of its numbers and standard deviation of the survey, from the manifest.
+    extents : sequence of Extent
+        Of the drawings: they may prove that 12.345 is twelve and a bit.
 
     Returns
     -------
@@ -87,25 +97,26 @@ def read_distances(path: Path, section: SurveySection) -> Distances:
     Raises
     ------
     UnreadableError
-        If a cell, a row or a column is wrong, or a length is not positive.
+        If a cell, a row or a column is wrong, numbers could be decimals or thousands, or a length is not positive.
     """
     sheet = read_text(path, _DISTANCES)
-    unit = _unit(sheet, section, ("measured", "delivered"))
+    unit = _unit(sheet, section, _LENGTHS)
     ids = _ids(sheet, example="D01")
-    measured, half = lengths_of(sheet, "measured", unit, required=True)
-    delivered, other = lengths_of(sheet, "delivered", unit, required=False)
-    _one_decimal_sign(sheet, ("measured", "delivered"))
-    for column, values in (("measured", measured), ("delivered", delivered)):
-        wrong = np.flatnonzero(values <= 0)
+    values, halves = _lengths(sheet, _LENGTHS, unit, required=("measured",))
+    doubtful = doubtful_cells(sheet, _LENGTHS)
+    if doubtful and not lengths_are_decimal(_doubtful(values, doubtful, _LENGTHS), extents):
+        raise thousands_fault(sheet, doubtful, section.unit)
+    for column in _LENGTHS:
+        wrong = np.flatnonzero(values[column] <= 0)
         if len(wrong):
             raise sheet.fault("table.not-positive", int(wrong[0]), column, example="2.345")
     return Distances(
-        id=ids, measured=measured, delivered=delivered, resolution=half + other,
+        id=ids, measured=values["measured"], delivered=values["delivered"], resolution=sum(halves.values()),
         survey_sd=section.survey_sd.si() if section.survey_sd else None, skipped=sheet.skipped,
     )  # fmt: skip
 
 
-def read_feature_list(path: Path) -> FeatureList:
+def read_feature_list(path: Path, _: TableSection | None = None) -> FeatureList:
     """Specified features of a CSV table with columns ``id, class, facade, count, use, omission_accepted, evidence``.
 
     Parameters
@@ -180,18 +191,17 @@ def _ids(sheet: Sheet, *, example: str) -> Texts:
     return _column(list(first))
 
 
-def _one_decimal_sign(sheet: Sheet, columns: Sequence[str]) -> None:
-    # 1.234 and 1,5 in one table: one of the two separates thousands, and nobody can say which.
-    seen: dict[str, tuple[int, str]] = {}
-    present = sorted((column for column in columns if column in sheet.at), key=lambda column: sheet.at[column])
-    for row, cells in enumerate(sheet.rows):
-        for column in present:
-            for sign in ",.":
-                if sign in cells[sheet.at[column]]:
-                    seen.setdefault(sign, (row, column))
-        if len(seen) == 2:  # noqa: PLR2004 - both signs
-            _, (row_of, column_of) = seen.popitem()
-            raise sheet.fault("table.two-decimal-signs", row_of, column_of, example="1234.5")
+def _lengths(
+    sheet: Sheet, columns: Sequence[str], unit: float, required: Sequence[str]
+) -> tuple[dict[str, Reals], dict[str, float]]:
+    # Values of each column in metres, and half a unit of its last digit.
+    found = {column: lengths_of(sheet, column, unit, required=column in required) for column in columns}
+    one_decimal_sign(sheet, columns)
+    return {name: values for name, (values, _) in found.items()}, {name: half for name, (_, half) in found.items()}
+
+
+def _doubtful(values: Mapping[str, Reals], doubtful: Mapping[str, Flags], columns: Sequence[str]) -> Reals:
+    return np.concatenate([np.empty(0), *(values[name][doubtful[name]] for name in columns if name in doubtful)])
 
 
 def _counts(sheet: Sheet) -> Index:
