@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """A table as text, as a spreadsheet writes it.
 
-Understood: UTF-8 with or without mark, UTF-16 with mark, else Windows-1252; semicolon, tab or comma between cells;
-quoted cells; a first line ``sep=;``; empty lines.
+Understood: UTF-8 with or without mark, UTF-16 with mark, else Windows-1252; semicolon, tab, comma or blanks between
+cells; quoted cells; a first line ``sep=;``; empty lines.
 """
 
 import contextlib
@@ -18,6 +18,8 @@ from foparq.read.table.sheet import MOST_ROWS, Asked, Line, Sheet, header_at, li
 MOST_BYTES = 50_000_000
 _HEAD = 40  #: lines by which the separator is told
 _SEPARATORS = (";", "\t", ",")
+_BLANKS = ("  ", " ")  #: two blanks or more between cells, or any number
+_CELL = re.compile(r'"([^"]*)"|(\S+)')
 _SEPARATOR_LINE = re.compile(r'^"?sep=(.)"?\s*$', re.IGNORECASE)
 _MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
 
@@ -34,6 +36,11 @@ def read_text(path: Path, asked: Asked) -> Sheet:
     ------
     UnreadableError
         If the file is no text table, a column is missing or named twice, or a row is ragged.
+
+    Notes
+    -----
+    Blanks separate cells only where every row then has as many as the header: a name with a blank, or a cell left
+    empty, shifts its row. Two blanks or more are tried first, for they keep names of several words together.
     """
     text = _text(path)
     lines = text.splitlines()
@@ -41,6 +48,8 @@ def read_text(path: Path, asked: Asked) -> Sheet:
     if stated:
         lines[0] = ""
     separator = stated[1] if stated else _separator(path, lines, asked)
+    if separator in _BLANKS:
+        return _blank_separated(path, lines, asked)
     rows = _rows(path, lines, separator, asked)
     if not rows:
         raise UnreadableError("table.no-columns", file=path.name, value="", example=asked.example)
@@ -70,7 +79,7 @@ def _text(path: Path) -> str:
 def _separator(path: Path, lines: Sequence[str], asked: Asked) -> str:
     # The header tells: with the right separator it names what is asked for.
     best, most = "", (False, 0)
-    for separator in _SEPARATORS:
+    for separator in (*_SEPARATORS, *_BLANKS):
         if (found := _likeness(lines[:_HEAD], separator, asked)) > most:
             best, most = separator, found
     if best:
@@ -81,6 +90,21 @@ def _separator(path: Path, lines: Sequence[str], asked: Asked) -> str:
         if separator in bare:
             return separator
     raise UnreadableError("table.no-columns", file=path.name, value=first[:80], example=asked.example)
+
+
+def _blank_separated(path: Path, lines: Sequence[str], asked: Asked) -> Sheet:
+    for separator in _BLANKS:
+        rows = _rows(path, lines, separator, asked)
+        top = header_at(rows, asked)
+        width = len(rows[top].cells)
+        odd = next((line for line in rows[top + 1 :] if len(line.cells) != width), None)
+        if odd is None and likeness(rows[top], asked)[0]:
+            return sheet_of(path.name, rows, asked, separator=separator)
+    if odd is None:
+        return sheet_of(path.name, rows, asked, separator=separator)  # a column is missing
+    raise UnreadableError(
+        "table.blanks", file=path.name, line=odd.number, value=len(odd.cells), other=width, example=asked.example
+    )
 
 
 def _likeness(lines: Sequence[str], separator: str, asked: Asked) -> tuple[bool, int]:
@@ -107,6 +131,11 @@ def _rows(path: Path, lines: Sequence[str], separator: str, asked: Asked) -> lis
 
 def _cells(lines: Sequence[str], separator: str) -> Iterator[Line]:
     # Lines that are not empty. A quoted cell may go over several lines of the file: its row stands in the first.
+    if separator in _BLANKS:
+        for number, line in enumerate(lines, start=1):
+            if line.strip():
+                yield Line(number, _between_blanks(line.strip(), separator))
+        return
     reader = csv.reader(io.StringIO("\n".join(lines)), delimiter=separator, strict=True)
     number = 1
     for cells in reader:
@@ -114,3 +143,9 @@ def _cells(lines: Sequence[str], separator: str) -> Iterator[Line]:
         if any(stripped):
             yield Line(number, stripped)
         number = reader.line_num + 1
+
+
+def _between_blanks(line: str, separator: str) -> tuple[str, ...]:
+    if separator == " ":
+        return tuple((quoted or bare).strip() for quoted, bare in _CELL.findall(line))
+    return tuple(cell.strip('" ') for cell in re.split(r"\s{2,}", line))
