@@ -56,14 +56,21 @@ def read_text(path: Path, asked: Asked) -> Sheet:
     return sheet_of(path.name, rows, asked, separator=separator)
 
 
+def is_workbook(path: Path) -> bool:
+    """Whether a file is an archive, as XLSX and ODS are."""
+    with path.open("rb") as stream:
+        return stream.read(4) == b"PK\x03\x04"
+
+
 def _text(path: Path) -> str:
     size = path.stat().st_size
     if size > MOST_BYTES:
         raise UnreadableError("read.too-large", file=path.name, value=size, limit=MOST_BYTES)
     data = path.read_bytes()
-    for magic, name in ((b"PK\x03\x04", "XLSX/ODS"), (b"\xd0\xcf\x11\xe0", "XLS"), (b"%PDF-", "PDF")):
-        if data.startswith(magic):
-            raise UnreadableError("table.not-csv", file=path.name, value=name)
+    if data.startswith(b"\xd0\xcf\x11\xe0"):
+        raise UnreadableError("table.old-workbook", file=path.name, value="XLS")
+    if data.startswith(b"%PDF-"):
+        raise UnreadableError("table.not-csv", file=path.name, value="PDF")
     encoding = next((name for mark, name in _MARKS if data.startswith(mark)), "utf-8")
     try:
         text = data.decode(encoding)

@@ -9,6 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from foparq.columns import Reals
+from foparq.read.table.cells import Odd
 from foparq.read.table.sheet import Sheet
 
 _LONGEST = 40  #: letters of a number
@@ -74,12 +75,14 @@ def lengths_of(sheet: Sheet, column: str, unit: float, *, required: bool) -> tup
     values: Reals = np.full(len(sheet.rows), np.nan)
     factor = Fraction(repr(unit))
     decimals: list[int] = []
-    for row, text in enumerate(sheet.texts(column)):
-        if not text:
+    for row, cell in enumerate(sheet.cells(column)):
+        if cell == "":
             if required:
                 raise sheet.fault("table.cell-empty", row, column, example="12.345")
             continue
-        number = number_of(text)
+        if isinstance(cell, Odd):
+            raise sheet.fault("table.date", row, column, example="12.345")
+        number = number_of(cell) if isinstance(cell, str) else _by_value(cell)
         if number is None or abs(number.decimals) > _MOST_DIGITS:
             raise sheet.fault("table.not-a-number", row, column, example="1234.5")
         values[row] = float(Fraction(number.value) * factor)
@@ -87,6 +90,11 @@ def lengths_of(sheet: Sheet, column: str, unit: float, *, required: bool) -> tup
     if not decimals:
         return values, 0.0
     return values, float(Fraction(1, 2) * Fraction(10) ** -_written_decimals(decimals) * factor)
+
+
+def _by_value(value: Decimal) -> Number:
+    exponent = value.as_tuple().exponent
+    return Number(value, -exponent if isinstance(exponent, int) else 0)
 
 
 def _written_decimals(decimals: list[int]) -> int:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from foparq.errors import UnreadableError
 from foparq.model.drawing import Skipped, SkippedReason
+from foparq.read.table.cells import Cell, Odd, OddKind, column_letters, is_empty, is_failed, shown
 from foparq.read.table.names import Names, plain_name
 
 MOST_ROWS = 1_000_000
@@ -30,7 +31,7 @@ class Line:
     """A line that is not empty."""
 
     number: int  #: in the file, from 1
-    cells: tuple[str, ...]  #: stripped
+    cells: tuple[Cell, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,26 +42,39 @@ class Sheet:
     header: tuple[str, ...]  #: as written
     at: Mapping[str, int]  #: our name of a column to its place
     lines: tuple[int, ...]  #: (n,) line of the file, from 1
-    rows: tuple[tuple[str, ...], ...]  #: (n,) cells, stripped
+    rows: tuple[tuple[Cell, ...], ...]  #: (n,)
     ignored: tuple[str, ...]  #: columns that nobody asked for, as written
-    skipped: tuple[Skipped, ...]  #: remarks above the header
+    skipped: tuple[Skipped, ...]  #: remarks above the header, and sheets that nobody asked for
+    addressed: bool  #: its cells have addresses: it is a sheet of a workbook
 
-    def texts(self, column: str) -> list[str]:
-        """(n,) cells of a column; empty texts if the file has no such column."""
+    def cells(self, column: str) -> list[Cell]:
+        """(n,) cells of a column; empty if the file has no such column."""
         if column not in self.at:
             return [""] * len(self.rows)
         place = self.at[column]
         return [row[place] for row in self.rows]
 
+    def texts(self, column: str) -> list[str]:
+        """(n,) cells of a column as text."""
+        return [shown(cell) for cell in self.cells(column)]
+
+    def key(self, row: int, column: str) -> str:
+        """Name of a column for messages, with the address of the cell where it has one: ``"x (B7)"``."""
+        place = self.at[column]
+        address = f" ({column_letters(place)}{self.lines[row]})" if self.addressed else ""
+        return f"{self.header[place]}{address}"
+
     def fault(self, message: str, row: int, column: str, *, example: str, **fields: object) -> UnreadableError:
         """Error that names the cell."""
         return UnreadableError(
-            message, file=self.file, line=self.lines[row], key=self.header[self.at[column]],
-            value=self.texts(column)[row], example=example, **fields,
+            message, file=self.file, line=self.lines[row], key=self.key(row, column),
+            value=shown(self.rows[row][self.at[column]]), example=example, **fields,
         )  # fmt: skip
 
 
-def sheet_of(file: str, lines: Sequence[Line], asked: Asked, *, separator: str) -> Sheet:
+def sheet_of(
+    file: str, lines: Sequence[Line], asked: Asked, *, separator: str = "", skipped: Sequence[Skipped] = ()
+) -> Sheet:
     """Table of lines.
 
     Parameters
@@ -70,27 +84,42 @@ def sheet_of(file: str, lines: Sequence[Line], asked: Asked, *, separator: str) 
     lines : sequence of Line
         At least one.
     separator : str
-        What stands between cells, for messages.
+        What stands between cells; ``""``: they are those of a workbook, and have addresses.
+    skipped : sequence of Skipped
+        What of the file was left out already.
 
     Raises
     ------
     UnreadableError
-        If a column is missing or named twice, a row is ragged, or more than a remark stands above the header.
+        If a column is missing or named twice, a row is ragged, more than a remark stands above the header, or a cell
+        that is asked for holds a formula that failed or has no value, or is covered by its neighbour.
     """
     top = header_at(lines, asked)
     header = lines[top]
-    skipped = _remarks(file, lines[:top], header)
     at, ignored = _columns(file, header, asked)
     width = len(header.cells)
-    return Sheet(
+    sheet = Sheet(
         file=file,
-        header=header.cells,
+        header=tuple(map(shown, header.cells)),
         at=at,
         lines=tuple(line.number for line in lines[top + 1 :]),
         rows=tuple(_fitted(file, line, width, separator) for line in lines[top + 1 :]),
         ignored=ignored,
-        skipped=skipped,
+        skipped=(*skipped, *_remarks(file, lines[:top], header)),
+        addressed=not separator,
     )
+    _refuse_odd(sheet)
+    return sheet
+
+
+def _refuse_odd(sheet: Sheet) -> None:
+    faults = {OddKind.FORMULA: "table.formula-without-value", OddKind.MERGED: "table.merged-cell"}
+    for column in sorted(sheet.at, key=lambda name: sheet.at[name]):
+        for row, cell in enumerate(sheet.cells(column)):
+            if isinstance(cell, Odd) and cell.kind in faults:
+                raise sheet.fault(faults[cell.kind], row, column, example="12.345")
+            if is_failed(cell):
+                raise sheet.fault("table.error-cell", row, column, example="12.345")
 
 
 def header_at(lines: Sequence[Line], asked: Asked) -> int:
@@ -101,7 +130,8 @@ def header_at(lines: Sequence[Line], asked: Asked) -> int:
 
 def likeness(line: Line, asked: Asked) -> tuple[bool, int]:
     """How much a line looks like the header: whether it names all columns that must be there, and how many of all."""
-    named = {column for name in line.cells if (column := _ours(asked).get(plain_name(name)))}
+    ours = _ours(asked)
+    named = {column for cell in line.cells if (column := ours.get(plain_name(shown(cell))))}
     return named.issuperset(asked.required), len(named)
 
 
@@ -112,7 +142,7 @@ def _ours(asked: Asked) -> dict[str, str]:
 def _remarks(file: str, above: Sequence[Line], header: Line) -> tuple[Skipped, ...]:
     # A title in one cell is a remark, and told; more than that may be a row that somebody sorted upward.
     for line in above:
-        if sum(map(bool, line.cells)) > 1:
+        if sum(not is_empty(cell) for cell in line.cells) > 1:
             raise UnreadableError(
                 "table.above-header", file=file, line=line.number, value=_shown(line), other=header.number,
                 example=_shown(header),
@@ -123,14 +153,15 @@ def _remarks(file: str, above: Sequence[Line], header: Line) -> tuple[Skipped, .
 
 
 def _shown(line: Line) -> str:
-    return " ".join(filter(None, line.cells))[:_SHOWN]
+    return " ".join(shown(cell) for cell in line.cells if not is_empty(cell))[:_SHOWN]
 
 
 def _columns(file: str, header: Line, asked: Asked) -> tuple[dict[str, int], tuple[str, ...]]:
     ours = _ours(asked)
     at: dict[str, int] = {}
     ignored: list[str] = []
-    for place, name in enumerate(header.cells):
+    names = [shown(cell) for cell in header.cells]
+    for place, name in enumerate(names):
         column = ours.get(plain_name(name))
         if column is None:
             if name:
@@ -138,7 +169,7 @@ def _columns(file: str, header: Line, asked: Asked) -> tuple[dict[str, int], tup
         elif column in at:
             raise UnreadableError(
                 "table.column-twice", file=file, line=header.number, key=column,
-                value=f"{header.cells[at[column]]}, {name}", example=asked.example,
+                value=f"{names[at[column]]}, {name}", example=asked.example,
             )  # fmt: skip
         else:
             at[column] = place
@@ -146,14 +177,16 @@ def _columns(file: str, header: Line, asked: Asked) -> tuple[dict[str, int], tup
         if column not in at:
             raise UnreadableError(
                 "table.column-missing", file=file, line=header.number, key=column,
-                value=", ".join(header.cells)[:200], example=asked.example,
+                value=", ".join(names)[:200], example=asked.example,
             )  # fmt: skip
     return at, tuple(ignored)
 
 
-def _fitted(file: str, line: Line, width: int, separator: str) -> tuple[str, ...]:
-    # Spreadsheets drop or add empty cells at the end of a row; anything else is a row that shifted.
+def _fitted(file: str, line: Line, width: int, separator: str) -> tuple[Cell, ...]:
     cells = line.cells
+    if not separator:
+        return (*cells[:width], *[""] * (width - len(cells)))
+    # Spreadsheets drop or add empty cells at the end of a row; anything else is a row that shifted.
     while len(cells) > width and not cells[-1]:
         cells = cells[:-1]
     if len(cells) != width:

@@ -27,7 +27,8 @@ def one_decimal_sign(sheet: Sheet, columns: Sequence[str]) -> None:
     for row, cells in enumerate(sheet.rows):
         for column in present:
             for sign in ",.":
-                if sign in cells[sheet.at[column]]:
+                cell = cells[sheet.at[column]]
+                if isinstance(cell, str) and sign in cell:
                     seen.setdefault(sign, (row, column))
         if len(seen) == 2:  # noqa: PLR2004 - both signs
             _, (row_of, column_of) = seen.popitem()
@@ -46,11 +47,12 @@ def doubtful_cells(sheet: Sheet, columns: Sequence[str]) -> dict[str, Flags]:
     -------
     dict of str to (n,) bool
         By column that has any. Empty if another number proves the sign decimal: a zero in front (0,812), more than
-        three digits in front, or other than three behind. A number without a sign (812) proves nothing.
+        three digits in front, or other than three behind. A number without a sign (812) proves nothing, nor does a
+        cell of a workbook that holds a number: its value is one anyway.
     """
     doubtful: dict[str, Flags] = {}
     for column in columns:
-        texts = sheet.texts(column)
+        texts = [cell if isinstance(cell, str) else "" for cell in sheet.cells(column)]
         flags = np.array([_GROUPED.match(text) is not None for text in texts], dtype=bool)
         if any(("." in text or "," in text) and not flag for text, flag in zip(texts, flags, strict=True)):
             return {}

@@ -19,7 +19,7 @@ from foparq.read.guard.paths import files_of
 from foparq.read.guard.sniff import format_of
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
 
-_TABLES = {".csv", ".txt", ".tsv"}
+_TABLES = {".csv", ".txt", ".tsv", ".xlsx", ".xlsm", ".ods"}
 _SCALE = 50.0  #: only decides how finely curves are drawn; nothing is measured here
 
 

@@ -11,7 +11,8 @@ from foparq.columns import Flags, Index, Reals, Texts
 from foparq.errors import UnreadableError
 from foparq.model.tables import Checkpoints, Distances, FeatureList
 from foparq.profile.manifest import SurveySection, TableSection
-from foparq.read.table.csv_text import read_text
+from foparq.read.table.cells import Odd
+from foparq.read.table.csv_text import is_workbook, read_text
 from foparq.read.table.extent import Extent, lengths_are_decimal, points_are_decimal
 from foparq.read.table.names import CHECKPOINT_COLUMNS, DISTANCE_COLUMNS, FEATURE_COLUMNS, unit_in_header
 from foparq.read.table.numbers import lengths_of, number_of
@@ -33,12 +34,12 @@ _FEATURES = Asked(known=FEATURE_COLUMNS, required=("id", "class"), example="id;c
 
 
 def read_checkpoints(path: Path, section: SurveySection, extents: Sequence[Extent] = ()) -> Checkpoints:
-    """Checkpoints of a CSV table with columns ``id, x, y, z`` (surveyed) and ``xd, yd, zd`` (delivered).
+    """Checkpoints of a table with columns ``id, x, y, z`` (surveyed) and ``xd, yd, zd`` (delivered).
 
     Parameters
     ----------
     path : Path
-        The table.
+        CSV, XLSX or ODS.
     section : SurveySection
         Unit of its numbers and standard deviation of the survey, from the manifest.
     extents : sequence of Extent
@@ -58,7 +59,7 @@ def read_checkpoints(path: Path, section: SurveySection, extents: Sequence[Exten
         If a cell, a row or a column is wrong, or numbers could be decimals or thousands; the error names file, line,
         column and value.
     """
-    sheet = read_text(path, _CHECKPOINTS)
+    sheet = _sheet(path, _CHECKPOINTS, section)
     unit = _unit(sheet, section, (*_SURVEYED, *_DELIVERED))
     ids = _ids(sheet, example="P01")
     values, halves = _lengths(sheet, (*_SURVEYED, *_DELIVERED), unit, required=_SURVEYED)
@@ -77,12 +78,12 @@ def read_checkpoints(path: Path, section: SurveySection, extents: Sequence[Exten
 
 
 def read_distances(path: Path, section: SurveySection, extents: Sequence[Extent] = ()) -> Distances:
-    """Distances of a CSV table with columns ``id, from, to, measured, delivered``.
+    """Distances of a table with columns ``id, from, to, measured, delivered``.
 
     Parameters
     ----------
     path : Path
-        The table.
+        CSV, XLSX or ODS.
     section : SurveySection
         Unit of its numbers and standard deviation of the survey, from the manifest.
     extents : sequence of Extent
@@ -99,7 +100,7 @@ def read_distances(path: Path, section: SurveySection, extents: Sequence[Extent]
     UnreadableError
         If a cell, a row or a column is wrong, numbers could be decimals or thousands, or a length is not positive.
     """
-    sheet = read_text(path, _DISTANCES)
+    sheet = _sheet(path, _DISTANCES, section)
     unit = _unit(sheet, section, _LENGTHS)
     ids = _ids(sheet, example="D01")
     values, halves = _lengths(sheet, _LENGTHS, unit, required=("measured",))
@@ -116,14 +117,16 @@ def read_distances(path: Path, section: SurveySection, extents: Sequence[Extent]
     )  # fmt: skip
 
 
-def read_feature_list(path: Path, _: TableSection | None = None) -> FeatureList:
-    """Specified features of a CSV table with columns ``id, class, facade, count, use, omission_accepted, evidence``.
+def read_feature_list(path: Path, section: TableSection | None = None) -> FeatureList:
+    """Specified features of a table with columns ``id, class, facade, count, use, omission_accepted, evidence``.
 
     Parameters
     ----------
     path : Path
-        The table. ``facade``, ``count`` (1), ``use`` (required), ``omission_accepted`` and ``evidence`` may be left
-        out or empty.
+        CSV, XLSX or ODS. ``facade``, ``count`` (1), ``use`` (required), ``omission_accepted`` and ``evidence`` may
+        be left out or empty.
+    section : TableSection, optional
+        Which sheet of a workbook, from the manifest; the first if left out.
 
     Returns
     -------
@@ -136,7 +139,7 @@ def read_feature_list(path: Path, _: TableSection | None = None) -> FeatureList:
         If an id is missing or used twice, a class is missing, a count is no whole number from 0, a use or a code is
         unknown, or an accepted omission names no evidence.
     """
-    sheet = read_text(path, _FEATURES)
+    sheet = _sheet(path, _FEATURES, section)
     uses = {spelled: use for use, words in _USES.items() for spelled in words}
     use = [uses.get(text.casefold(), "") for text in sheet.texts("use")]
     accepted = [text.upper() for text in sheet.texts("omission_accepted")]
@@ -163,6 +166,18 @@ def read_feature_list(path: Path, _: TableSection | None = None) -> FeatureList:
     )
 
 
+def _sheet(path: Path, asked: Asked, section: TableSection | None) -> Sheet:
+    stated = section.sheet if section else None
+    if is_workbook(path):
+        # openpyxl takes a while to load, and few tables need it.
+        from foparq.read.table.workbook import read_workbook  # noqa: PLC0415
+
+        return read_workbook(path, asked, stated)
+    if stated is not None:
+        raise UnreadableError("table.sheet-of-text", file=path.name, value=stated)
+    return read_text(path, asked)
+
+
 def _unit(sheet: Sheet, section: SurveySection, columns: Sequence[str]) -> float:
     # Metres in one unit of the table. A unit in the header that says otherwise is a contradiction, not a correction.
     stated = parse_length_unit(section.unit)
@@ -182,9 +197,11 @@ def _ids(sheet: Sheet, *, example: str) -> Texts:
     for row, name in enumerate(sheet.texts("id")):
         if not name:
             raise sheet.fault("table.cell-empty", row, "id", example=example)
+        if isinstance(sheet.rows[row][sheet.at["id"]], Odd):
+            raise sheet.fault("table.date", row, "id", example=example)
         if name in first:
             raise UnreadableError(
-                "table.id-twice", file=sheet.file, line=sheet.lines[row], key=sheet.header[sheet.at["id"]], value=name,
+                "table.id-twice", file=sheet.file, line=sheet.lines[row], key=sheet.key(row, "id"), value=name,
                 other=sheet.lines[first[name]], example=example,
             )  # fmt: skip
         first[name] = row
@@ -209,7 +226,7 @@ def _counts(sheet: Sheet) -> Index:
     for row, text in enumerate(sheet.texts("count")):
         if not text:
             continue
-        number = number_of(text)
+        number = None if isinstance(sheet.cells("count")[row], Odd) else number_of(text)
         if number is None or number.value != number.value.to_integral_value() or not 0 <= number.value < 10**9:
             raise sheet.fault("table.not-a-count", row, "count", example="3")
         counts[row] = int(number.value)
