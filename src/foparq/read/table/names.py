@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Names that people give to the columns of a table, in English, Portuguese and Spanish.
+"""Names that people give to the columns and uses in a table, in English, Portuguese and Spanish.
 
 Compared without case, accents, blanks, a plural ``s``, and a unit in brackets at the end.
 """
@@ -7,6 +7,7 @@ Compared without case, accents, blanks, a plural ``s``, and a unit in brackets a
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
+from functools import cache
 
 from foparq.units import LENGTHS
 
@@ -55,6 +56,13 @@ FEATURE_COLUMNS: Names = {
         "evidência", "prova", "comprovação", "justificativa", "evidencia", "prueba", "justificación",
     ),
 }  # fmt: skip
+_USES: Names = {
+    "required": (
+        "", "required", "mandatory", "obrigatório", "obrigatória", "exigido", "exigida", "obligatorio", "obligatoria",
+    ),
+    "optional": ("optional", "opcional", "opcionais", "opcionales", "facultativo", "facultativa"),
+    "prohibited": ("prohibited", "forbidden", "proibido", "proibida", "vedado", "vedada", "prohibido", "prohibida"),
+}  # fmt: skip
 _IN_BRACKETS = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _SHORTEST_PLURAL = 4  #: letters
 
@@ -74,6 +82,22 @@ def plain_name(name: str) -> str:
     ('xreferencia', 'obrigatorio')
     """
     return plain_word(_IN_BRACKETS.sub("", name))
+
+
+def use_of(word: str) -> str:
+    """Whether a feature is ``"required"``, ``"optional"`` or ``"prohibited"``; ``""`` if the word is not known.
+
+    Examples
+    --------
+    >>> use_of("OBRIGATORIOS"), use_of(""), use_of("talvez")
+    ('required', 'required', '')
+    """
+    return _uses().get(plain_word(word), "")
+
+
+@cache
+def _uses() -> Mapping[str, str]:
+    return {plain_word(word): use for use, words in _USES.items() for word in words}
 
 
 def plain_word(word: str) -> str:

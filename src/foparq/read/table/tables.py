@@ -14,17 +14,12 @@ from foparq.profile.manifest import SurveySection, TableSection
 from foparq.read.table.cells import Odd
 from foparq.read.table.csv_text import is_workbook, read_text
 from foparq.read.table.extent import Extent, lengths_are_decimal, points_are_decimal
-from foparq.read.table.names import CHECKPOINT_COLUMNS, DISTANCE_COLUMNS, FEATURE_COLUMNS, unit_in_header
+from foparq.read.table.names import CHECKPOINT_COLUMNS, DISTANCE_COLUMNS, FEATURE_COLUMNS, unit_in_header, use_of
 from foparq.read.table.numbers import lengths_of, number_of
 from foparq.read.table.sheet import Asked, Sheet
 from foparq.read.table.signs import doubtful_cells, one_decimal_sign, thousands_fault
 from foparq.units import parse_length_unit
 
-_USES = {
-    "required": ("", "required", "obrigatório", "obrigatória", "exigido", "exigida"),
-    "optional": ("optional", "opcional", "facultativo", "facultativa"),
-    "prohibited": ("prohibited", "proibido", "proibida", "vedado", "vedada"),
-}
 _SURVEYED, _DELIVERED = ("x", "y", "z"), ("xd", "yd", "zd")
 _LENGTHS = ("measured", "delivered")
 OMISSIONS = ("OCCL", "ADJ", "ACCESS", "RES", "DEMOL", "HIDDEN")
@@ -140,8 +135,7 @@ def read_feature_list(path: Path, section: TableSection | None = None) -> Featur
         unknown, or an accepted omission names no evidence.
     """
     sheet = _sheet(path, _FEATURES, section)
-    uses = {spelled: use for use, words in _USES.items() for spelled in words}
-    use = [uses.get(text.casefold(), "") for text in sheet.texts("use")]
+    use = [use_of(text) for text in sheet.texts("use")]
     accepted = [text.upper() for text in sheet.texts("omission_accepted")]
     evidence = sheet.texts("evidence")
     for row, name in enumerate(sheet.texts("class")):
