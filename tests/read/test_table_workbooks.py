@@ -18,6 +18,7 @@ from foparq.errors import InputError, UnreadableError
 from foparq.model.drawing import SkippedReason
 from foparq.profile.manifest import SurveySection, TableSection
 from foparq.read.guard.parent import guarded
+from foparq.read.table.survey import tables_in
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
 from foparq.report.words import LANGUAGES, Words
 
@@ -158,6 +159,14 @@ def test_a_hidden_first_sheet_is_not_what_people_see(tmp_path: Path, write: Writ
     error = fault(path, read_distances)
     assert (error.message, error.fields["example"]) == ("table.sheet-hidden", 'sheet = "Medidas"')
     assert read_distances(path, SurveySection(path="t", sheet="Plan1")).id.tolist() == ["A"]
+
+
+@WRITERS
+def test_a_survey_names_the_sheets_that_are_seen(tmp_path: Path, write: Writer) -> None:
+    lengths: Rows = [["id", "measured"], ["A", 1.5]]
+    others: dict[str, Rows] = {"Notas": [["nada"]], "Medidas": lengths}
+    assert tables_in(write(tmp_path / "t", lengths, others=others)) == [("distances", None), ("distances", "Medidas")]
+    assert tables_in(write(tmp_path / "u", lengths, others=others, hidden="Plan1")) == [("distances", "Medidas")]
 
 
 def test_a_text_table_has_no_sheet(tmp_path: Path) -> None:

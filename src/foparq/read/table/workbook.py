@@ -5,9 +5,10 @@ Cells count by value, as last calculated; how they are formatted is nobody's bus
 what is hidden is delivered. No link to another file is followed, no macro is read.
 """
 
+import contextlib
 import unicodedata
 import zipfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from foparq.errors import UnreadableError, UnsafeError
@@ -40,21 +41,32 @@ def read_workbook(path: Path, asked: Asked, sheet: str | None) -> Sheet:
     UnsafeError
         If what is packed is too large.
     """
-    try:
-        with zipfile.ZipFile(path) as archive:
-            _bounded(path, archive)
-            book = _book(path, archive)
-            chosen = _chosen(path, book.sheets, sheet)
-            lines = book.lines(chosen)
-    except (UnreadableError, UnsafeError, MemoryError):
-        raise
-    except Exception as error:  # noqa: BLE001 - libraries raise anything on a broken file
-        raise UnreadableError("table.workbook-broken", file=path.name, value=type(error).__name__) from None
+    with _opened(path) as book:
+        chosen = _chosen(path, book.sheets, sheet)
+        lines = book.lines(chosen)
     if not lines:
         raise UnreadableError("table.no-columns", file=path.name, value="", example=asked.example)
     others = tuple(name for name in book.sheets if name != chosen) if sheet is None else ()
     told = tuple(Skipped(reason=SkippedReason.NOT_ASKED, kind="", layer=name, count=1) for name in others)
     return sheet_of(path.name, lines, asked, skipped=told)
+
+
+def sheets_of(path: Path) -> dict[str, bool]:
+    """Name of each sheet in order, and whether it is visible; raises as :func:`read_workbook`."""
+    with _opened(path) as book:
+        return dict(book.sheets)
+
+
+@contextlib.contextmanager
+def _opened(path: Path) -> Iterator[Book]:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            _bounded(path, archive)
+            yield _book(path, archive)
+    except (UnreadableError, UnsafeError, MemoryError):
+        raise
+    except Exception as error:  # noqa: BLE001 - libraries raise anything on a broken file
+        raise UnreadableError("table.workbook-broken", file=path.name, value=type(error).__name__) from None
 
 
 def _bounded(path: Path, archive: zipfile.ZipFile) -> None:
