@@ -148,7 +148,8 @@ def test_points_that_would_lie_in_one_spot_prove_nothing(tmp_path: Path) -> None
     # 510 to 524 m in millimetres, 500 m off the drawing: as decimals they lie within 14 mm of each other in it.
     rows = "".join(f"P{n};{x};512,{n}05;50{n},016\n" for n, x in enumerate(["510,037", "524,063", "517,004"]))
     path = written(tmp_path, "id;x;y;z\n" + rows)
-    assert fault(read_checkpoints, path, MILLIMETRES, [AT_ORIGIN]).message == "table.thousands"
+    for extent in (AT_ORIGIN, Extent((0.0, 0.0, 0.0), (14.0, 0.3, 7.0)), Extent((0.0, 0.0, 0.0), (14.0, 0.01, 7.0))):
+        assert fault(read_checkpoints, path, MILLIMETRES, [extent]).message == "table.thousands"
 
 
 def test_one_gross_error_does_not_make_a_table_ambiguous(tmp_path: Path) -> None:

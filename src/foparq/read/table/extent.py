@@ -13,7 +13,7 @@ from foparq.model.items import Role
 
 _THOUSAND = 1000.0
 _STRAY = 20.0  #: so many times the extent of nearly all away is no part of the drawing
-_SPREAD = 0.05  #: of the extent of an axis: points nearer together do not lie about the drawing
+_SPREAD = 0.05  #: of the diagonal: points nearer together do not lie about the drawing
 _SHORT = 0.01  #: of the diagonal: no distance beyond is none that was measured for this drawing
 
 
@@ -65,21 +65,20 @@ def points_are_decimal(axes: Sequence[Reals], extents: Sequence[Extent]) -> bool
     -------
     bool
         True if along some axis in which a drawing has an extent half of them or more lie near it and spread over a
-        twentieth of it, while a thousand times larger none lies near a drawing in any axis. Near is within the
-        diagonal.
+        twentieth of its diagonal, while a thousand times larger none lies near a drawing in any axis. Near is within
+        the diagonal.
     """
     there = False
     for extent in extents:
         margin = extent.diagonal
         for values, low, high in zip(axes, extent.low, extent.high, strict=True):
-            width = high - low
-            if not len(values) or width <= 0:
+            if not len(values) or high <= low:
                 continue
             times = values * _THOUSAND
             if ((times >= low - margin) & (times <= high + margin)).any():
                 return False
             near = values[(values >= low - margin) & (values <= high + margin)]
-            there = there or (2 * len(near) >= len(values) and bool(np.ptp(near) >= _SPREAD * width))
+            there = there or (2 * len(near) >= len(values) and bool(np.ptp(near) >= _SPREAD * margin))
     return there
 
 
