@@ -14,7 +14,8 @@ from foparq.units import LENGTHS
 Names = Mapping[str, Sequence[str]]  #: our name of a column to the names that people give it
 
 _ID = (
-    "ponto", "point", "punto", "nome", "name", "nombre", "código", "code", "identificador", "ident", "nº", "n°", "no", "#", "pto",
+    "ponto", "point", "punto", "pto", "nome", "name", "nombre", "código", "code", "identificador", "ident", "nº", "n°",
+    "no", "#",
 )  # fmt: skip
 CHECKPOINT_COLUMNS: Names = {
     "id": _ID,
