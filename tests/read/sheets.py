@@ -46,7 +46,6 @@ def letters(place: int) -> str:
 
 def xlsx(
     path: Path, rows: Rows, *, others: Mapping[str, Rows] | None = None, hidden: str = "", name: str = "Plan1",
-    more: Mapping[str, str] | None = None,
 ) -> Path:  # fmt: skip
     sheets = {name: rows, **(others or {})}
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -90,8 +89,6 @@ def xlsx(
         )
         for n, content in enumerate(sheets.values()):
             archive.writestr(f"xl/worksheets/sheet{n}.xml", _worksheet(content))
-        for member, text in (more or {}).items():
-            archive.writestr(member, text)
     return path
 
 

@@ -54,7 +54,9 @@ def test_features_may_be_called_so_too(tmp_path: Path) -> None:
     assert rows.id.tolist() == ["#1", "A", "#2"]
 
 
-@pytest.mark.parametrize("header", ["#;x;y;z", "# ;X;Y;Z", "nº;E;N;H", "N.º;Este;Norte;Cota"])
+@pytest.mark.parametrize(
+    "header", ["#;x;y;z", "# ;X;Y;Z", "#id;x;y;z", "# ponto;x;y;z", "//id;x;y;z", "nº;E;N;H", "N.º;Este;Norte;Cota"]
+)
 def test_a_column_of_numbers_called_so_holds_the_ids(tmp_path: Path, header: str) -> None:
     points = read_checkpoints(written(tmp_path, f"{header}\n1;1.5;2.5;3.5\n"), METRES)
     assert points.id.tolist() == ["1"]

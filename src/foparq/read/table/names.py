@@ -105,4 +105,5 @@ def plain_word(word: str) -> str:
     """Word without case, accents, blanks, points, dashes and a plural ``s``."""
     letters = unicodedata.normalize("NFKD", unicodedata.normalize("NFKC", word).casefold())
     bare = re.sub(r"[\s_.\-]+", "", "".join(c for c in letters if not unicodedata.combining(c)))
+    bare = bare.lstrip("#/") or bare  # what some programs put before a header
     return bare.removesuffix("s") if len(bare) >= _SHORTEST_PLURAL else bare
