@@ -12,7 +12,7 @@ import pytest
 import shapely
 
 #: libraries that take a tenth of a second or more, or are needed by one command only
-HEAVY = {"numpy", "scipy", "shapely", "pyogrio", "pyproj", "ezdxf", "lxml", "jinja2", "pydantic", "rich"}
+HEAVY = {"numpy", "scipy", "shapely", "pyogrio", "pyproj", "ezdxf", "lxml", "openpyxl", "jinja2", "pydantic", "rich"}
 LOOK = """
 import sys
 from foparq.cli.main import run

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import ezdxf
 import jsonschema
+import openpyxl
 import pytest
 
 from foparq.cli.main import COMMANDS, run
@@ -397,6 +398,28 @@ def test_init_proposes_and_guesses_nothing(foparq: Command, tmp_path: Path, lang
     assert foparq("audit", folder)[0] == 2, "the scale is for a person to state"
     (folder / "delivery.toml").write_text(text.replace('# scale = "1:50"', 'scale = "1:50"'), encoding="utf-8")
     assert foparq("audit", folder)[0] == 3
+
+
+def test_init_finds_the_tables_of_a_workbook(foparq: Command, tmp_path: Path) -> None:
+    write_dxf(tmp_path / "fachada.dxf", *CLEAN)
+    book = openpyxl.Workbook()
+    sheets = {
+        "Feições": [["id", "classe"], ["A", "janela"]],
+        "Notas": [["nada"]],
+        "Pontos": [["id", "x", "y", "z"], ["P1", 1.5, 2.5, 3.5]],
+        "Medidas": [["id", "medida"], ["D1", 1.5]],
+    }
+    book.remove(book.active)
+    for name, rows in sheets.items():
+        sheet = book.create_sheet(name)
+        for row in rows:
+            sheet.append(row)
+    book.save(tmp_path / "levantamento.xlsx")
+    assert foparq("init", tmp_path)[0] == 0
+    manifest = load_manifest(tmp_path / "delivery.toml")
+    named = [manifest.features, manifest.checkpoints, manifest.distances]
+    assert [section and section.path for section in named] == ["levantamento.xlsx"] * 3
+    assert [section and section.sheet for section in named] == [None, "Pontos", "Medidas"]
 
 
 def test_init_proposes_one_of_two_formats_of_the_same_drawing(foparq: Command, tmp_path: Path) -> None:

@@ -41,8 +41,8 @@ def test_a_mistake_is_told_with_its_own_key_and_line(
     ("text", "known"),
     [
         ("[delivery]\nx = 1\n", ["crs", "language", "profile", "scale", "title"]),
-        ("[features]\npath = 'f.csv'\nx = 1\n", ["path"]),
-        ("[checkpoints]\npath = 'f.csv'\nx = 1\n", ["path", "survey_sd", "unit"]),
+        ("[features]\npath = 'f.csv'\nx = 1\n", ["path", "sheet"]),
+        ("[checkpoints]\npath = 'f.csv'\nx = 1\n", ["path", "sheet", "survey_sd", "unit"]),
     ],
 )
 def test_an_unknown_key_is_told_with_those_that_its_table_knows(tmp_path: Path, text: str, known: list[str]) -> None:

@@ -6,6 +6,7 @@ import os
 import shutil
 import sqlite3
 import threading
+from collections.abc import Callable
 from pathlib import Path
 from typing import NoReturn
 
@@ -25,7 +26,7 @@ from foparq.read.guard.paths import inside
 from foparq.report.words import LANGUAGES, Words
 
 pytestmark = pytest.mark.usefixtures("alone")
-POINTS = "id;x;y;z;xd;yd;zd\nP1;1,000;2,000;3,000;1,002;2,001;3,000\n"
+POINTS = "id;x;y;z;xd;yd;zd\nP1;1,0000;2,0000;3,0000;1,0020;2,0010;3,0000\n"
 
 
 @pytest.fixture
@@ -319,6 +320,21 @@ def test_a_reader_without_end_is_a_refused_file(tmp_path: Path, monkeypatch: pyt
     monkeypatch.setattr("foparq.read.gis.reader.read_gis", endless)
     source = only(take(tmp_path, manifest(drawing=[{"path": "a.gpkg"}]), seconds=1))
     assert (source.status, source.error, dict(source.fields)["seconds"]) == (SourceStatus.REFUSED, "read.too-slow", 1)
+
+
+@pytest.mark.parametrize(("reader", "error"), [(endless, "read.too-slow"), (crashing, "read.crashed")])
+def test_tables_are_read_within_bounds_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, reader: Callable[..., None], error: str
+) -> None:
+    (tmp_path / "p.csv").write_text(POINTS, encoding="utf-8")
+    roles = ("checkpoints", "distances", "features")
+    stated = manifest(**{role: {"path": "p.csv"} for role in roles})
+    monkeypatch.setattr("foparq.read.table.tables.read_text", reader)
+    delivered, crashes = read_delivery(tmp_path, stated, "", profile=profile(seconds=1), scale=50)
+    told = {source.role: source.error for source in delivered.sources}
+    assert told == dict.fromkeys(roles, error)
+    assert len(crashes) == (3 if reader is crashing else 0)
+    assert (delivered.checkpoints, delivered.distances, delivered.features) == (None, None, None)
 
 
 def test_a_crash_of_a_reader_is_told_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

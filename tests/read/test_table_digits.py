@@ -8,7 +8,7 @@ import pytest
 
 from foparq.errors import UnreadableError
 from foparq.profile.manifest import SurveySection
-from foparq.read.table.csv_text import number_of
+from foparq.read.table.numbers import number_of
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
 
 METRES = SurveySection(path="t.csv")

@@ -14,7 +14,7 @@ from foparq.report.words import LANGUAGES, Words
 METRES = SurveySection(path="t.csv")
 ENGLISH = b"id,x,y,z,xd,yd,zd\nP1,1.000,2.000,3.000,1.002,2.001,3.00\nP2,4.000,5.000,6.000,4.001,,\n"
 QUOTED = (
-    b'# exported\n\n"ID","E (m)","N (m)","H (m)","XD","YD","ZD"\n'
+    b'\n"ID","E (m)","N (m)","H (m)","XD","YD","ZD"\n'
     b'"P1","1,000","2,000","3,000","1,002","2,001","3,00"\nP2,"4,000","5,000","6,000","4,001",,\n'
 )
 PORTUGUESE = (
@@ -99,7 +99,10 @@ CHECKPOINT_TRAPS = [
     ("P1;1;2;3\nP2;1.250;2;3\nP3;1;2,5;3", "table.two-decimal-signs", 4, "y", "2,5"),
     ("P1;nan;2;3", "table.not-a-number", 2, "x", "nan"),
     ("P1;1;inf;3", "table.not-a-number", 2, "y", "inf"),
-    ("P1;1;2;#REF!", "table.not-a-number", 2, "z", "#REF!"),
+    ("P1;1;2;#REF!", "table.error-cell", 2, "z", "#REF!"),
+    ("P1;1;#N/D;3", "table.error-cell", 2, "y", "#N/D"),
+    ("P1;#¡VALOR!;2;3", "table.error-cell", 2, "x", "#¡VALOR!"),
+    ("P1;1;2;Err:508", "table.error-cell", 2, "z", "Err:508"),
     ("P1;1;2;=A1", "table.not-a-number", 2, "z", "=A1"),
     ("P1;1e400;2;3", "table.not-a-number", 2, "x", "1e400"),
     ("P1;1;2;" + "9" * 400, "table.not-a-number", 2, "z", "9" * 400),
@@ -135,8 +138,9 @@ def test_a_decimal_comma_between_commas_is_a_ragged_row(tmp_path: Path) -> None:
     [
         (b"", "read.empty"),
         (b"  \n \n", "read.empty"),
-        (b"PK\x03\x04rest", "table.not-csv"),
-        (b"\xd0\xcf\x11\xe0rest", "table.not-csv"),
+        (b"PK\x03\x04rest", "table.workbook-broken"),
+        (b"\xd0\xcf\x11\xe0rest", "table.old-workbook"),
+        (b"%PDF-1.7", "table.not-csv"),
         (b"id;x;y;z\nP1;1;2;3\0\n", "table.not-csv"),
         (b"one column\n1\n", "table.no-columns"),
         (b"id;x;y\nP1;1;2\n", "table.column-missing"),
@@ -150,7 +154,7 @@ def test_what_is_no_such_table_is_refused(tmp_path: Path, data: bytes, message: 
 
 
 def test_lines_are_counted_as_the_file_has_them(tmp_path: Path) -> None:
-    error = fault(written(tmp_path, 'id;x;y;z;nota\n\nP1;1;2;3;"duas\nlinhas"\n# nada\nP2;1;?;3;\n'))
+    error = fault(written(tmp_path, 'id;x;y;z;nota\n\nP1;1;2;3;"duas\nlinhas"\n\nP2;1;?;3;\n'))
     assert error.fields["line"] == 6
 
 

@@ -9,7 +9,7 @@ import click
 from foparq.audit import MANIFEST
 from foparq.errors import ManifestError, WriteError
 from foparq.profile.load import load_profile
-from foparq.read.table.survey import FoundDrawing, Survey, survey_folder
+from foparq.read.table.survey import FoundDrawing, FoundTable, Survey, survey_folder
 from foparq.report.words import Words, printable
 
 _PROFILE = "et-doc-foparq-a"
@@ -109,14 +109,18 @@ def _plane(extent: tuple[float, float, float]) -> str:
     return line if extent[order[1]] > _CLEARLY * extent[order[0]] else f"# {line}"
 
 
-def _table(role: str, names: tuple[str, ...], survey_sd: str, say: Words) -> list[str]:
-    if not names:
+def _table(role: str, found: tuple[FoundTable, ...], survey_sd: str, say: Words) -> list[str]:
+    if not found:
         body = [f"# [{role}]", f'# path = "{role}.csv"']
         return body + ([f'# survey_sd = "{survey_sd}"'] if survey_sd else [])
-    lines = [f"[{role}]", f"path = {_quoted(names[0])}"]
+    first, *others = found
+    lines = [f"[{role}]", f"path = {_quoted(first.path)}"]
+    if first.sheet is not None:
+        lines.append(f"sheet = {_quoted(first.sheet)}")
     if survey_sd:
         lines.append(f'# survey_sd = "{survey_sd}"  # {say("cli.manifest.survey-sd")}')
-    return lines + [f"# {say('cli.manifest.also')}: {printable(name)}" for name in names[1:]]
+    names = [f"{other.path} ({other.sheet})" if other.sheet is not None else other.path for other in others]
+    return lines + [f"# {say('cli.manifest.also')}: {printable(name)}" for name in names]
 
 
 def _comment(text: str) -> list[str]:

@@ -53,6 +53,8 @@ class SkippedReason(StrEnum):
     UNSUPPORTED_LAYER = "unsupported-layer"
     VIEW = "view"
     VIRTUAL_TABLE = "virtual-table"
+    # of a table of points, distances or features
+    ABOVE_HEADER = "above-header"
 
     @property
     def opens(self) -> bool:
@@ -62,6 +64,7 @@ class SkippedReason(StrEnum):
 
 #: what shows no linework of the delivery; a reason that nobody lists here leaves the question open
 _NO_LINEWORK = frozenset({
+    SkippedReason.ABOVE_HEADER,  # a remark in a table
     SkippedReason.ATTRIBUTES,  # rows without a place
     SkippedReason.DEGENERATE,  # no extent: nobody sees it in CAD either
     SkippedReason.IMAGE,  # the photograph that was drawn over

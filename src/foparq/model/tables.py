@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from foparq.columns import Flags, Index, Reals, Texts
+from foparq.model.drawing import Skipped
 
 
 def _exact() -> Reals:
@@ -29,6 +30,7 @@ class Checkpoints:
     delivered: Reals  #: (n, 3) X, Y, Z; NaN where not delivered
     resolution: Reals  #: (3,) half the last printed digit of surveyed plus delivered, per axis, metres
     survey_sd: float | None  #: standard deviation of the survey, metres; ``None`` if not stated
+    skipped: tuple[Skipped, ...] = ()  #: what of the file is no row of it
     printed: Reals = field(default_factory=_exact)  #: (3,) half the last printed digit of delivered alone, metres
 
 
@@ -41,6 +43,7 @@ class Distances:
     delivered: Reals  #: (n,) in the delivery; NaN where not delivered
     resolution: float  #: half the last printed digit of measured plus delivered, metres
     survey_sd: float | None  #: standard deviation of the survey, metres; ``None`` if not stated
+    skipped: tuple[Skipped, ...] = ()  #: what of the file is no row of it
     start: Texts = field(default_factory=_nameless)  #: (n,) name of the first end, ``""`` if none; left out: none
     end: Texts = field(default_factory=_nameless)  #: (n,) of the second
     places: Reals = field(default_factory=_placeless)  #: (n, 2, 3) delivered coordinates of both, metres; NaN if none
@@ -69,6 +72,7 @@ class FeatureList:
     accepted: Texts  #: (n,) code of an accepted omission, ``""`` if none
     evidence: Texts  #: (n,) what supports the accepted omission
     ignored: tuple[str, ...] = ()  #: columns of the file that no check uses
+    skipped: tuple[Skipped, ...] = ()  #: what of the file is no row of it
 
     def required(self) -> Flags:
         """(n,) true where the contract demands the feature."""

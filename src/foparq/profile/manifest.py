@@ -47,6 +47,7 @@ class TableSection(Strict):
     """``[features]``: one table."""
 
     path: str
+    sheet: str | None = None  #: of a workbook; the first if left out
 
 
 class SurveySection(TableSection):

@@ -40,9 +40,9 @@ from foparq.read.intake import (
 )
 from foparq.read.raw import RawDrawing
 from foparq.read.statements import confirmed, confirms
+from foparq.read.table.extent import extent_of
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
 
-S = TypeVar("S", bound=TableSection)
 T = TypeVar("T", Checkpoints, Distances, FeatureList)
 
 
@@ -99,9 +99,10 @@ def read_delivery(
     for section in manifest.drawing:
         find = partial(inside, root, section.path)
         _drawing(intake, section, shown_path(section.path), find, manifest.confirmed)
-    checkpoints = _table(intake, root, "checkpoints", manifest.checkpoints, read_checkpoints)
-    distances = _table(intake, root, "distances", manifest.distances, read_distances)
-    features = _table(intake, root, "features", manifest.features, lambda path, _: read_feature_list(path))
+    extents = tuple(extent for drawing in intake.drawings if (extent := extent_of(drawing)))
+    checkpoints = _table(intake, root, "checkpoints", manifest.checkpoints, read_checkpoints, extents)
+    distances = _table(intake, root, "distances", manifest.distances, read_distances, extents)
+    features = _table(intake, root, "features", manifest.features, read_feature_list)
     take_unnamed(intake, root)
     delivery = Delivery(
         title=manifest.delivery.title or root.resolve().name, sources=tuple(intake.sources),
@@ -240,7 +241,9 @@ def _plane(items: Items, section: DrawingSection) -> Plane:
     return plane_of(section.plane, geometry)
 
 
-def _table(intake: Intake, root: Path, role: str, section: S | None, read: Callable[[Path, S], T]) -> T | None:
+def _table(
+    intake: Intake, root: Path, role: str, section: TableSection | None, read: Callable[..., T], *more: object
+) -> T | None:
     if section is None:
         return None
     name = shown_path(section.path)
@@ -253,9 +256,14 @@ def _table(intake: Intake, root: Path, role: str, section: S | None, read: Calla
         if source.status is SourceStatus.MISSING:
             intake.sources.append(source)
             return None
-        table = read(path, section)
+        limits = intake.profile.limits
+        table = guarded(read, path, section, *more, file=name, seconds=limits.seconds, memory=limits.memory)
     except InputError as error:
         intake.sources.append(refused(source, name, error.message, error.fields))
         return None
-    intake.sources.append(replace(source, status=SourceStatus.READ, items=len(table.id)))
+    except RuntimeError as error:
+        intake.crashes.append(f"{name}\n{error}")
+        intake.sources.append(refused(source, name, "read.crashed", {}))
+        return None
+    intake.sources.append(replace(source, status=SourceStatus.READ, items=len(table.id), skipped=table.skipped))
     return table

@@ -15,6 +15,7 @@ def reader_versions() -> dict[str, str]:
         "GDAL": _carried("pyogrio", "gdal") or _loaded_gdal(),
         "PROJ": _carried("pyproj", "proj") or _loaded_proj(),
         "ezdxf": metadata.version("ezdxf"),
+        "openpyxl": metadata.version("openpyxl"),
         "pyogrio": metadata.version("pyogrio"),
     }
 

@@ -1,132 +1,65 @@
 # SPDX-License-Identifier: MIT
-"""A table as a spreadsheet writes it: cells with the line they stand in, numbers as they are printed.
+"""A table as text, as a spreadsheet writes it.
 
-Understood: UTF-8 with or without mark, UTF-16 with mark, else Windows-1252; semicolon, tab or comma between cells;
-quoted cells; a first line ``sep=;``; decimal point or decimal comma; empty lines, and lines whose first cell starts
-with ``#``. Never guessed: a number that could be read in two ways.
+Understood: UTF-8 with or without mark, UTF-16 with mark, else Windows-1252; semicolon, tab, comma or blanks between
+cells; quoted cells; a first line ``sep=;``; empty lines.
 """
 
+import contextlib
 import csv
 import io
 import re
-import unicodedata
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from decimal import Decimal
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from foparq.errors import UnreadableError
-from foparq.units import LENGTHS
+from foparq.read.table.sheet import MOST_ROWS, Asked, Line, Sheet, header_at, likeness, sheet_of
 
 MOST_BYTES = 50_000_000
-MOST_ROWS = 1_000_000
-_LONGEST_NUMBER = 40
-_NUMBER = re.compile(r"^[+-]?(?P<whole>\d+)?(?P<separator>[.,])?(?P<decimals>\d+)?(?:[eE](?P<exponent>[+-]?\d{1,3}))?$")
+_HEAD = 40  #: lines by which the separator is told
+_SEPARATORS = (";", "\t", ",")
+_BLANKS = ("  ", " ")  #: two blanks or more between cells, or any number
+_CELL = re.compile(r'"([^"]*)"|(\S+)')
 _SEPARATOR_LINE = re.compile(r'^"?sep=(.)"?\s*$', re.IGNORECASE)
-_IN_BRACKETS = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
 _MARKS = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sheet:
-    """A table of n rows."""
-
-    file: str
-    header: tuple[str, ...]  #: as written
-    at: Mapping[str, int]  #: our name of a column to its place
-    lines: tuple[int, ...]  #: (n,) line of the file, from 1
-    rows: tuple[tuple[str, ...], ...]  #: (n,) cells, stripped
-    ignored: tuple[str, ...]  #: columns that nobody asked for, as written
-
-    def texts(self, column: str) -> list[str]:
-        """(n,) cells of a column; empty texts if the file has no such column."""
-        if column not in self.at:
-            return [""] * len(self.rows)
-        place = self.at[column]
-        return [row[place] for row in self.rows]
-
-    def fault(self, message: str, row: int, column: str, example: str) -> UnreadableError:
-        """Error that names the cell."""
-        return UnreadableError(
-            message, file=self.file, line=self.lines[row], key=self.header[self.at[column]],
-            value=self.texts(column)[row], example=example,
-        )  # fmt: skip
-
-
-@dataclass(frozen=True, slots=True)
-class Number:
-    """A number as printed."""
-
-    value: Decimal
-    decimals: int  #: digits after the decimal sign; negative for 1e3
-
-
-def read_sheet(path: Path, *, known: Mapping[str, Sequence[str]], required: Sequence[str], example: str) -> Sheet:
-    """Table of a CSV file.
+def read_text(path: Path, asked: Asked) -> Sheet:
+    """Table of a text file.
 
     Parameters
     ----------
     path : Path
         A regular file.
-    known : mapping
-        Our name of a column to the names a person may give it. Compared without case, accents, blanks, and a unit in
-        brackets at the end.
-    required : sequence of str
-        Our names of the columns that must be there.
-    example : str
-        A right first line.
 
     Raises
     ------
     UnreadableError
-        If the file is no text table, a column is missing or named twice, a row is ragged, or both decimal signs occur.
+        If the file is no text table, a column is missing or named twice, or a row is ragged.
+
+    Notes
+    -----
+    Blanks separate cells only where every row then has as many as the header: a name with a blank, or a cell left
+    empty, shifts its row. Two blanks or more are tried first, for they keep names of several words together.
     """
     text = _text(path)
-    separator, lines = _separator(path, text, example)
-    rows = _rows(path, lines, separator, example)
-    first, header = rows[0]
-    at, ignored = _columns(path, first, header, known, required, example)
-    body = [(line, _fitted(path, line, row, len(header), separator)) for line, row in rows[1:]]
-    return Sheet(
-        file=path.name,
-        header=tuple(header),
-        at=at,
-        lines=tuple(line for line, _ in body),
-        rows=tuple(row for _, row in body),
-        ignored=ignored,
-    )
+    lines = text.splitlines()
+    stated = _SEPARATOR_LINE.match(lines[0])
+    if stated:
+        lines[0] = ""
+    separator = stated[1] if stated else _separator(path, lines, asked)
+    if separator in _BLANKS:
+        return _blank_separated(path, lines, asked)
+    rows = _rows(path, lines, separator, asked)
+    if not rows:
+        raise UnreadableError("table.no-columns", file=path.name, value="", example=asked.example)
+    return sheet_of(path.name, rows, asked, separator=separator)
 
 
-def number_of(text: str) -> Number | None:
-    """Number as a person printed it, with decimal point or comma; ``None`` if it is none, or could be two.
-
-    ``1.234,5`` and ``1 234`` are ``None``: what separates thousands here separates decimals there.
-
-    Examples
-    --------
-    >>> number_of("-12,340")
-    Number(value=Decimal('-12.340'), decimals=3)
-    >>> number_of("1.234,5") is None
-    True
-    """
-    plain = text.strip().replace("\u2212", "-")
-    found = _NUMBER.match(plain)
-    if (
-        found is None
-        or len(plain) > _LONGEST_NUMBER
-        or not plain.isascii()
-        or not (found["whole"] or found["decimals"])
-        or (found["separator"] and not found["decimals"])
-    ):
-        return None
-    exponent = int(found["exponent"] or 0)
-    return Number(Decimal(plain.replace(",", ".")), len(found["decimals"] or "") - exponent)
-
-
-def unit_in_header(name: str) -> str:
-    """Unit that a column's name carries in brackets: ``"mm"`` of ``"X (mm)"``; ``""`` if none."""
-    found = _IN_BRACKETS.search(name)
-    return found[1] if found and found[1] in LENGTHS else ""
+def is_workbook(path: Path) -> bool:
+    """Whether a file is an archive, as XLSX and ODS are."""
+    with path.open("rb") as stream:
+        return stream.read(4) == b"PK\x03\x04"
 
 
 def _text(path: Path) -> str:
@@ -134,11 +67,10 @@ def _text(path: Path) -> str:
     if size > MOST_BYTES:
         raise UnreadableError("read.too-large", file=path.name, value=size, limit=MOST_BYTES)
     data = path.read_bytes()
-    if not data.strip():
-        raise UnreadableError("read.empty", file=path.name)
-    for magic, name in ((b"PK\x03\x04", "XLSX/ODS"), (b"\xd0\xcf\x11\xe0", "XLS"), (b"%PDF-", "PDF")):
-        if data.startswith(magic):
-            raise UnreadableError("table.not-csv", file=path.name, value=name)
+    if data.startswith(b"\xd0\xcf\x11\xe0"):
+        raise UnreadableError("table.old-workbook", file=path.name, value="XLS")
+    if data.startswith(b"%PDF-"):
+        raise UnreadableError("table.not-csv", file=path.name, value="PDF")
     encoding = next((name for mark, name in _MARKS if data.startswith(mark)), "utf-8")
     try:
         text = data.decode(encoding)
@@ -146,89 +78,81 @@ def _text(path: Path) -> str:
         text = data.decode("cp1252", errors="replace")
     if "\0" in text:
         raise UnreadableError("table.not-csv", file=path.name, value="NUL")
+    if not text.strip():
+        raise UnreadableError("read.empty", file=path.name)
     return text
 
 
-def _separator(path: Path, text: str, example: str) -> tuple[str, list[str]]:
-    # The header decides: it is the line that holds no decimal commas.
-    lines = text.splitlines()
-    stated = _SEPARATOR_LINE.match(lines[0])
-    if stated:
-        return stated[1], ["", *lines[1:]]
-    header = next((line for line in lines if line.strip() and not line.lstrip('" ').startswith("#")), "")
-    bare = re.sub(r'"[^"]*"', "", header)
-    for separator in (";", "\t", ","):
+def _separator(path: Path, lines: Sequence[str], asked: Asked) -> str:
+    # The header tells: with the right separator it names what is asked for.
+    best, most = "", (False, 0)
+    for separator in (*_SEPARATORS, *_BLANKS):
+        if (found := _likeness(lines[:_HEAD], separator, asked)) > most:
+            best, most = separator, found
+    if best:
+        return best
+    first = next(line for line in lines if line.strip())
+    bare = re.sub(r'"[^"]*"', "", first)
+    for separator in _SEPARATORS:
         if separator in bare:
-            return separator, lines
-    raise UnreadableError("table.no-columns", file=path.name, value=header[:80], example=example)
+            return separator
+    raise UnreadableError("table.no-columns", file=path.name, value=first[:80], example=asked.example)
 
 
-def _rows(path: Path, lines: list[str], separator: str, example: str) -> list[tuple[int, list[str]]]:
-    rows: list[tuple[int, list[str]]] = []
-    reader = csv.reader(io.StringIO("\n".join(lines)), delimiter=separator, strict=True)
+def _blank_separated(path: Path, lines: Sequence[str], asked: Asked) -> Sheet:
+    for separator in _BLANKS:
+        rows = _rows(path, lines, separator, asked)
+        top = header_at(rows, asked)
+        width = len(rows[top].cells)
+        odd = next((line for line in rows[top + 1 :] if len(line.cells) != width), None)
+        if odd is None and likeness(rows[top], asked)[0]:
+            return sheet_of(path.name, rows, asked, separator=separator)
+    if odd is None:
+        return sheet_of(path.name, rows, asked, separator=separator)  # a column is missing
+    raise UnreadableError(
+        "table.blanks", file=path.name, line=odd.number, value=len(odd.cells), other=width, example=asked.example
+    )
+
+
+def _likeness(lines: Sequence[str], separator: str, asked: Asked) -> tuple[bool, int]:
+    found: list[Line] = []
+    with contextlib.suppress(csv.Error):  # quotes that end beyond the first lines, or do not match this separator
+        found.extend(line for line in _cells(lines, separator) if len(line.cells) > 1)
+    return likeness(found[header_at(found, asked)], asked) if found else (False, 0)
+
+
+def _rows(path: Path, lines: Sequence[str], separator: str, asked: Asked) -> list[Line]:
+    rows: list[Line] = []
     try:
-        start = 1
-        for cells in reader:
-            stripped = [cell.strip() for cell in cells]
-            if any(stripped) and not stripped[0].startswith("#"):
-                rows.append((start, stripped))
-            start = reader.line_num + 1
+        for line in _cells(lines, separator):
+            rows.append(line)
             if len(rows) > MOST_ROWS:
                 raise UnreadableError("table.too-many-rows", file=path.name, limit=MOST_ROWS)
     except csv.Error as error:
+        number = rows[-1].number + 1 if rows else 1
         raise UnreadableError(
-            "table.broken", file=path.name, line=reader.line_num, value=str(error), example=example
+            "table.broken", file=path.name, line=number, value=str(error), example=asked.example
         ) from None
-    if not rows:
-        raise UnreadableError("table.no-columns", file=path.name, value="", example=example)
     return rows
 
 
-def _columns(
-    path: Path, line: int, header: list[str], known: Mapping[str, Sequence[str]], required: Sequence[str], example: str
-) -> tuple[dict[str, int], tuple[str, ...]]:
-    ours = {_plain(name): column for column, names in known.items() for name in (column, *names)}
-    at: dict[str, int] = {}
-    ignored: list[str] = []
-    for place, name in enumerate(header):
-        column = ours.get(_plain(name))
-        if column is None:
-            if name:
-                ignored.append(name)
-        elif column in at:
-            raise UnreadableError(
-                "table.column-twice",
-                file=path.name,
-                line=line,
-                key=column,
-                value=f"{header[at[column]]}, {name}",
-                example=example,
-            )
-        else:
-            at[column] = place
-    for column in required:
-        if column not in at:
-            raise UnreadableError(
-                "table.column-missing",
-                file=path.name,
-                line=line,
-                key=column,
-                value=", ".join(header)[:200],
-                example=example,
-            )
-    return at, tuple(ignored)
+def _cells(lines: Sequence[str], separator: str) -> Iterator[Line]:
+    # Lines that are not empty. A quoted cell may go over several lines of the file: its row stands in the first.
+    if separator in _BLANKS:
+        for number, line in enumerate(lines, start=1):
+            if line.strip():
+                yield Line(number, _between_blanks(line.strip(), separator))
+        return
+    reader = csv.reader(io.StringIO("\n".join(lines)), delimiter=separator, strict=True)
+    number = 1
+    for cells in reader:
+        stripped = tuple(cell.strip() for cell in cells)
+        if any(stripped):
+            yield Line(number, stripped)
+        number = reader.line_num + 1
 
 
-def _plain(name: str) -> str:
-    bare = _IN_BRACKETS.sub("", name)
-    letters = unicodedata.normalize("NFKD", bare.casefold())
-    return re.sub(r"[\s_.\-]+", "", "".join(c for c in letters if not unicodedata.combining(c)))
-
-
-def _fitted(path: Path, line: int, row: list[str], width: int, separator: str) -> tuple[str, ...]:
-    # Spreadsheets drop or add empty cells at the end of a row; anything else is a row that shifted.
-    while len(row) > width and not row[-1]:
-        row = row[:-1]
-    if len(row) != width:
-        raise UnreadableError("table.ragged", file=path.name, line=line, key=separator, value=len(row), example=width)
-    return tuple(row)
+def _between_blanks(line: str, separator: str) -> tuple[str, ...]:
+    if separator == " ":
+        return tuple((quoted or bare).strip() for quoted, bare in _CELL.findall(line))
+    return tuple(cell.strip('" ') for cell in re.split(r"\s{2,}", line))

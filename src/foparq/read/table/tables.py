@@ -1,84 +1,45 @@
 # SPDX-License-Identifier: MIT
-"""Checkpoints, distances and the list of specified features, from CSV.
-
-Names of columns are understood in English and Portuguese; the tables below list them. Columns that nobody asked for
-are left alone.
-"""
+"""Checkpoints, distances and the list of specified features. Columns that nobody asked for are left alone."""
 
 import math
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 
-from foparq.columns import Index, Reals, Texts
+from foparq.columns import Flags, Index, Reals, Texts
 from foparq.errors import UnreadableError
 from foparq.model.tables import Checkpoints, Distances, FeatureList
-from foparq.profile.manifest import SurveySection
-from foparq.read.table.csv_text import Sheet, number_of, read_sheet, unit_in_header
+from foparq.profile.manifest import SurveySection, TableSection
+from foparq.read.table.cells import Odd
+from foparq.read.table.csv_text import is_workbook, read_text
+from foparq.read.table.extent import Extent, lengths_are_decimal, points_are_decimal
+from foparq.read.table.names import CHECKPOINT_COLUMNS, DISTANCE_COLUMNS, FEATURE_COLUMNS, unit_in_header, use_of
+from foparq.read.table.numbers import lengths_of, number_of
+from foparq.read.table.sheet import Asked, Sheet
+from foparq.read.table.signs import doubtful_cells, one_decimal_sign, thousands_fault
 from foparq.units import parse_length_unit
 
-_ID = ("ponto", "point", "nome", "name", "código", "code", "identificador", "ident", "nº", "no")
-CHECKPOINT_COLUMNS: Mapping[str, Sequence[str]] = {
-    "id": _ID,
-    "x": ("e", "este", "leste", "easting", "x levantado", "x surveyed", "x campo", "x referência", "x ref"),
-    "y": ("n", "norte", "northing", "y levantado", "y surveyed", "y campo", "y referência", "y ref"),
-    "z": (
-        "h",
-        "cota",
-        "altitude",
-        "height",
-        "elevation",
-        "z levantado",
-        "z surveyed",
-        "z campo",
-        "z referência",
-        "z ref",
-    ),
-    "xd": ("x entregue", "x delivered", "x desenho", "x drawing", "x restituído", "x medido"),
-    "yd": ("y entregue", "y delivered", "y desenho", "y drawing", "y restituído", "y medido"),
-    "zd": ("z entregue", "z delivered", "z desenho", "z drawing", "z restituído", "z medido"),
-}
-DISTANCE_COLUMNS: Mapping[str, Sequence[str]] = {
-    "id": (*_ID, "distância", "distance"),
-    "from": ("de", "start", "início", "do ponto", "point a", "ponto a"),
-    "to": ("para", "até", "end", "fim", "ao ponto", "point b", "ponto b"),
-    "measured": ("medida", "medido", "trena", "tape", "referência", "reference", "campo"),
-    "delivered": ("entregue", "desenho", "drawing", "restituída", "restituído"),
-    **{f"{axis}{end}": (f"{axis} {name}",) for end, name in ((1, "de"), (2, "para")) for axis in "xyz"},
-}
-_END_COLUMNS = tuple(f"{axis}{end}" for end in (1, 2) for axis in "xyz")
-FEATURE_COLUMNS: Mapping[str, Sequence[str]] = {
-    "id": (*_ID, "feição", "feature"),
-    "class": ("classe", "feature class", "tipo", "categoria"),
-    "facade": ("fachada", "façade", "lado", "elevation", "elevação"),
-    "count": ("quantidade", "qtd", "qtde", "contagem", "quantity"),
-    "use": ("uso", "exigência", "obrigatoriedade"),
-    "omission_accepted": ("omissão aceita", "motivo da omissão", "accepted omission"),
-    "evidence": ("evidência", "prova", "comprovação", "justificativa"),
-}
-_USES = {
-    "required": ("", "required", "obrigatório", "obrigatória", "exigido", "exigida"),
-    "optional": ("optional", "opcional", "facultativo", "facultativa"),
-    "prohibited": ("prohibited", "proibido", "proibida", "vedado", "vedada"),
-}
+_SURVEYED, _DELIVERED = ("x", "y", "z"), ("xd", "yd", "zd")
+_LENGTHS = ("measured", "delivered")
+_ENDS = ("x1", "y1", "z1", "x2", "y2", "z2")  #: delivered coordinates of both ends
 OMISSIONS = ("OCCL", "ADJ", "ACCESS", "RES", "DEMOL", "HIDDEN")
-_CHECKPOINT_LINE = "id;x;y;z;xd;yd;zd"
-_DISTANCE_LINE = "id;from;to;measured;delivered"
-_FEATURE_LINE = "id;class;facade;count;use"
-_MOST_DIGITS = 30  #: decimals or powers of ten beyond any length
+_CHECKPOINTS = Asked(known=CHECKPOINT_COLUMNS, required=("id", "x", "y", "z"), example="id;x;y;z;xd;yd;zd")
+_DISTANCES = Asked(known=DISTANCE_COLUMNS, required=("id", "measured"), example="id;from;to;measured;delivered")
+_FEATURES = Asked(known=FEATURE_COLUMNS, required=("id", "class"), example="id;class;facade;count;use")
 
 
-def read_checkpoints(path: Path, section: SurveySection) -> Checkpoints:
-    """Checkpoints of a CSV table with columns ``id, x, y, z`` (surveyed) and ``xd, yd, zd`` (delivered).
+def read_checkpoints(path: Path, section: SurveySection, extents: Sequence[Extent] = ()) -> Checkpoints:
+    """Checkpoints of a table with columns ``id, x, y, z`` (surveyed) and ``xd, yd, zd`` (delivered).
 
     Parameters
     ----------
     path : Path
-        The table.
+        CSV, XLSX or ODS.
     section : SurveySection
         Unit of its numbers and standard deviation of the survey, from the manifest.
+    extents : sequence of Extent
+        Of the drawings: they may prove that 12.345 is twelve and a bit.
 
     Returns
     -------
@@ -91,34 +52,39 @@ def read_checkpoints(path: Path, section: SurveySection) -> Checkpoints:
     Raises
     ------
     UnreadableError
-        If a cell, a row or a column is wrong; the error names file, line, column and value.
+        If a cell, a row or a column is wrong, or numbers could be decimals or thousands; the error names file, line,
+        column and value.
     """
-    sheet = read_sheet(path, known=CHECKPOINT_COLUMNS, required=("id", "x", "y", "z"), example=_CHECKPOINT_LINE)
-    unit = _unit(sheet, section, ("x", "y", "z", "xd", "yd", "zd"))
+    sheet = _sheet(path, _CHECKPOINTS, section)
+    unit = _unit(sheet, section, (*_SURVEYED, *_DELIVERED))
     ids = _ids(sheet, example="P01")
-    surveyed = [_numbers(sheet, axis, unit, required=True) for axis in ("x", "y", "z")]
-    delivered = [_numbers(sheet, axis, unit, required=False) for axis in ("xd", "yd", "zd")]
-    _one_decimal_sign(sheet, ("x", "y", "z", "xd", "yd", "zd"))
-    halves = [one + other for (_, one), (_, other) in zip(surveyed, delivered, strict=True)]
+    values, halves = _lengths(sheet, (*_SURVEYED, *_DELIVERED), unit, required=_SURVEYED)
+    doubtful = doubtful_cells(sheet, (*_SURVEYED, *_DELIVERED))
+    axes = [_doubtful(values, doubtful, pair) for pair in zip(_SURVEYED, _DELIVERED, strict=True)]
+    if doubtful and not points_are_decimal(axes, extents):
+        raise thousands_fault(sheet, doubtful, section.unit)
     return Checkpoints(
         id=ids,
-        surveyed=np.column_stack([values for values, _ in surveyed]),
-        delivered=np.column_stack([values for values, _ in delivered]),
-        resolution=np.array(halves),
+        surveyed=np.column_stack([values[axis] for axis in _SURVEYED]),
+        delivered=np.column_stack([values[axis] for axis in _DELIVERED]),
+        resolution=np.array([halves[x] + halves[xd] for x, xd in zip(_SURVEYED, _DELIVERED, strict=True)]),
         survey_sd=section.survey_sd.si() if section.survey_sd else None,
-        printed=np.array([other for _, other in delivered]),
+        printed=np.array([halves[axis] for axis in _DELIVERED]),
+        skipped=sheet.skipped,
     )
 
 
-def read_distances(path: Path, section: SurveySection) -> Distances:
-    """Distances of a CSV table with columns ``id, from, to, measured, delivered``.
+def read_distances(path: Path, section: SurveySection, extents: Sequence[Extent] = ()) -> Distances:
+    """Distances of a table with columns ``id, from, to, measured, delivered``.
 
     Parameters
     ----------
     path : Path
-        The table.
+        CSV, XLSX or ODS.
     section : SurveySection
         Unit of its numbers and standard deviation of the survey, from the manifest.
+    extents : sequence of Extent
+        Of the drawings: they may prove that 12.345 is twelve and a bit.
 
     Returns
     -------
@@ -129,34 +95,38 @@ def read_distances(path: Path, section: SurveySection) -> Distances:
     Raises
     ------
     UnreadableError
-        If a cell, a row or a column is wrong, or a length is not positive.
+        If a cell, a row or a column is wrong, numbers could be decimals or thousands, or a length is not positive.
     """
-    sheet = read_sheet(path, known=DISTANCE_COLUMNS, required=("id", "measured"), example=_DISTANCE_LINE)
-    unit = _unit(sheet, section, ("measured", "delivered", *_END_COLUMNS))
+    sheet = _sheet(path, _DISTANCES, section)
+    unit = _unit(sheet, section, (*_LENGTHS, *_ENDS))
     ids = _ids(sheet, example="D01")
-    measured, half = _numbers(sheet, "measured", unit, required=True)
-    delivered, other = _numbers(sheet, "delivered", unit, required=False)
-    places = [_numbers(sheet, column, unit, required=False)[0] for column in _END_COLUMNS]
-    _one_decimal_sign(sheet, ("measured", "delivered", *_END_COLUMNS))
-    for column, values in (("measured", measured), ("delivered", delivered)):
-        wrong = np.flatnonzero(values <= 0)
+    values, halves = _lengths(sheet, (*_LENGTHS, *_ENDS), unit, required=("measured",))
+    doubtful = doubtful_cells(sheet, (*_LENGTHS, *_ENDS))
+    if doubtful and not lengths_are_decimal(_doubtful(values, doubtful, _LENGTHS), extents):
+        raise thousands_fault(sheet, doubtful, section.unit)
+    for column in _LENGTHS:
+        wrong = np.flatnonzero(values[column] <= 0)
         if len(wrong):
             raise sheet.fault("table.not-positive", int(wrong[0]), column, example="2.345")
     return Distances(
-        id=ids, measured=measured, delivered=delivered, resolution=half + other,
+        id=ids, measured=values["measured"], delivered=values["delivered"],
+        resolution=halves["measured"] + halves["delivered"],
         survey_sd=section.survey_sd.si() if section.survey_sd else None, start=_column(sheet.texts("from")),
-        end=_column(sheet.texts("to")), places=np.stack(places, axis=1).reshape(-1, 2, 3), printed=other,
+        end=_column(sheet.texts("to")), places=np.stack([values[one] for one in _ENDS], axis=1).reshape(-1, 2, 3),
+        printed=halves["delivered"], skipped=sheet.skipped,
     )  # fmt: skip
 
 
-def read_feature_list(path: Path) -> FeatureList:
-    """Specified features of a CSV table with columns ``id, class, facade, count, use, omission_accepted, evidence``.
+def read_feature_list(path: Path, section: TableSection | None = None) -> FeatureList:
+    """Specified features of a table with columns ``id, class, facade, count, use, omission_accepted, evidence``.
 
     Parameters
     ----------
     path : Path
-        The table. ``facade``, ``count`` (1), ``use`` (required), ``omission_accepted`` and ``evidence`` may be left
-        out or empty.
+        CSV, XLSX or ODS. ``facade``, ``count`` (1), ``use`` (required), ``omission_accepted`` and ``evidence`` may
+        be left out or empty.
+    section : TableSection, optional
+        Which sheet of a workbook, from the manifest; the first if left out.
 
     Returns
     -------
@@ -169,9 +139,8 @@ def read_feature_list(path: Path) -> FeatureList:
         If an id is missing or used twice, a class is missing, a count is no whole number from 0, a use or a code is
         unknown, or an accepted omission names no evidence.
     """
-    sheet = read_sheet(path, known=FEATURE_COLUMNS, required=("id", "class"), example=_FEATURE_LINE)
-    uses = {spelled: use for use, words in _USES.items() for spelled in words}
-    use = [uses.get(text.casefold(), "") for text in sheet.texts("use")]
+    sheet = _sheet(path, _FEATURES, section)
+    use = [use_of(text) for text in sheet.texts("use")]
     accepted = [text.upper() for text in sheet.texts("omission_accepted")]
     evidence = sheet.texts("evidence")
     for row, name in enumerate(sheet.texts("class")):
@@ -192,7 +161,20 @@ def read_feature_list(path: Path) -> FeatureList:
         accepted=_column(accepted),
         evidence=_column(evidence),
         ignored=sheet.ignored,
+        skipped=sheet.skipped,
     )
+
+
+def _sheet(path: Path, asked: Asked, section: TableSection | None) -> Sheet:
+    stated = section.sheet if section else None
+    if is_workbook(path):
+        # openpyxl takes a while to load, and few tables need it.
+        from foparq.read.table.workbook import read_workbook  # noqa: PLC0415
+
+        return read_workbook(path, asked, stated)
+    if stated is not None:
+        raise UnreadableError("table.sheet-of-text", file=path.name, value=stated)
+    return read_text(path, asked)
 
 
 def _unit(sheet: Sheet, section: SurveySection, columns: Sequence[str]) -> float:
@@ -214,54 +196,28 @@ def _ids(sheet: Sheet, *, example: str) -> Texts:
     for row, name in enumerate(sheet.texts("id")):
         if not name:
             raise sheet.fault("table.cell-empty", row, "id", example=example)
+        if isinstance(sheet.rows[row][sheet.at["id"]], Odd):
+            raise sheet.fault("table.date", row, "id", example=example)
         if name in first:
             raise UnreadableError(
-                "table.id-twice", file=sheet.file, line=sheet.lines[row], key=sheet.header[sheet.at["id"]], value=name,
+                "table.id-twice", file=sheet.file, line=sheet.lines[row], key=sheet.key(row, "id"), value=name,
                 other=sheet.lines[first[name]], example=example,
             )  # fmt: skip
         first[name] = row
     return _column(list(first))
 
 
-def _one_decimal_sign(sheet: Sheet, columns: Sequence[str]) -> None:
-    # 1.234 and 1,5 in one table: one of the two separates thousands, and nobody can say which.
-    seen: dict[str, tuple[int, str]] = {}
-    present = sorted((column for column in columns if column in sheet.at), key=lambda column: sheet.at[column])
-    for row, cells in enumerate(sheet.rows):
-        for column in present:
-            for sign in ",.":
-                if sign in cells[sheet.at[column]]:
-                    seen.setdefault(sign, (row, column))
-        if len(seen) == 2:  # noqa: PLR2004 - both signs
-            _, (row_of, column_of) = seen.popitem()
-            raise sheet.fault("table.two-decimal-signs", row_of, column_of, example="1234.5")
+def _lengths(
+    sheet: Sheet, columns: Sequence[str], unit: float, required: Sequence[str]
+) -> tuple[dict[str, Reals], dict[str, float]]:
+    # Values of each column in metres, and half a unit of its last digit.
+    found = {column: lengths_of(sheet, column, unit, required=column in required) for column in columns}
+    one_decimal_sign(sheet, columns)
+    return {name: values for name, (values, _) in found.items()}, {name: half for name, (_, half) in found.items()}
 
 
-def _numbers(sheet: Sheet, column: str, unit: float, *, required: bool) -> tuple[Reals, float]:
-    # Values in metres (n,), NaN where empty, and half a unit of the last digit in metres.
-    values: Reals = np.full(len(sheet.rows), np.nan)
-    factor = Fraction(repr(unit))
-    decimals: list[int] = []
-    for row, text in enumerate(sheet.texts(column)):
-        if not text:
-            if required:
-                raise sheet.fault("table.cell-empty", row, column, example="12.345")
-            continue
-        number = number_of(text)
-        if number is None or abs(number.decimals) > _MOST_DIGITS:
-            raise sheet.fault("table.not-a-number", row, column, example="1234.5")
-        values[row] = float(Fraction(number.value) * factor)
-        decimals.append(number.decimals)
-    if not decimals:
-        return values, 0.0
-    return values, float(Fraction(1, 2) * Fraction(10) ** -_written_decimals(decimals) * factor)
-
-
-def _written_decimals(decimals: list[int]) -> int:
-    """Decimals to which a column was written: spreadsheets drop trailing zeros, one number in ten loses one."""
-    most = max(decimals)
-    full = sum(1 for count in decimals if count == most)
-    return most if full * 3 >= len(decimals) * 2 else min(decimals)
+def _doubtful(values: Mapping[str, Reals], doubtful: Mapping[str, Flags], columns: Sequence[str]) -> Reals:
+    return np.concatenate([np.empty(0), *(values[name][doubtful[name]] for name in columns if name in doubtful)])
 
 
 def _counts(sheet: Sheet) -> Index:
@@ -269,7 +225,7 @@ def _counts(sheet: Sheet) -> Index:
     for row, text in enumerate(sheet.texts("count")):
         if not text:
             continue
-        number = number_of(text)
+        number = None if isinstance(sheet.cells("count")[row], Odd) else number_of(text)
         if number is None or number.value != number.value.to_integral_value() or not 0 <= number.value < 10**9:
             raise sheet.fault("table.not-a-count", row, "count", example="3")
         counts[row] = int(number.value)
