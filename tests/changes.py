@@ -84,8 +84,13 @@ def _by_geometry(change: Callable[[Geometries], Geometries]) -> Callable[[Any], 
     return forth
 
 
+def _in_one_space(geometry: Geometries) -> Geometries:
+    """What has no depth lies at depth zero, also after it was moved in depth."""
+    return shapely.force_3d(geometry) if shapely.has_z(geometry).any() else geometry
+
+
 def _motion(forth: Move, back: Move, *, rounds: bool = True, turns: bool = True) -> Change:
-    there = _by_geometry(lambda g: moved(g, forth))
+    there = _by_geometry(lambda g: moved(_in_one_space(g), forth))
     return Change(forth=there, back=lambda g: moved(g, back), rounds=rounds, turns=turns)
 
 
