@@ -12,7 +12,6 @@ import shapely
 from ezdxf import recover
 from tests.read.drawn import read, skipped
 
-from foparq.errors import UnreadableError
 from foparq.model.items import Role
 from foparq.read.dxf.kinds import FACES
 
@@ -89,12 +88,12 @@ def test_every_nasty_file_is_spoken_of(shared: Path) -> None:
     assert files == {*NASTY, "blocks.dxf"}
 
 
-def test_a_file_beyond_mending_is_refused(shared: Path) -> None:
-    with pytest.raises(UnreadableError) as caught:
-        read(shared / "data/drawings/nasty_dxf/blocks.dxf")
-    assert caught.value.message == "dxf.unreadable"
-    assert caught.value.fields["file"] == "blocks.dxf"
-    assert "LWPOLYLINE(#3AC)" in str(caught.value.fields["reason"])
+def test_viewports_that_cannot_be_loaded_are_set_aside(shared: Path) -> None:
+    path = shared / "data/drawings/nasty_dxf/blocks.dxf"  # blocks alone: no header, no drawing
+    drawing = read(path)
+    assert len(drawing.items) == 0
+    assert len(drawing.reading.repairs) == path.read_bytes().count(b"\nVIEWPORT\n") == 9
+    assert all("VIEWPORT" in repair.detail for repair in drawing.reading.repairs)
 
 
 def nasty(shared: Path, name: str, **options: Any) -> Any:

@@ -36,6 +36,9 @@ LEAKS: tuple[type[Exception], ...] = (
 )  # fmt: skip
 
 
+STAND_IN = "foparq:malformed:"  #: before the kind of an entity that could not be loaded, in a text in its place
+
+
 class MalformedError(Exception):
     """An entity that cannot be understood."""
 
@@ -50,7 +53,7 @@ def common_of(entity: Any) -> Common:  # noqa: ANN401 - ezdxf entities share no 
         found = {**found, **entity.graphic_properties()}
     layer, handle, colour = found.get("layer"), found.get("handle"), found.get("color", 256)
     return Common(
-        kind=str(entity.dxftype()),
+        kind=_lost(entity) or str(entity.dxftype()),
         handle=handle if isinstance(handle, str) else "",
         layer=layer if isinstance(layer, str) and layer else "0",
         colour=colour if isinstance(colour, int) and 0 <= colour <= 257 else 256,  # noqa: PLR2004 - AutoCAD colour index
@@ -67,6 +70,8 @@ def facts_of(entity: Any) -> Facts:  # noqa: ANN401
         If the entity is damaged.
     """
     kind = entity.dxftype()
+    if _lost(entity):
+        raise MalformedError
     if kind in UNSEEN:
         return Unseen(UNSEEN[kind])
     reader = _READERS.get(kind)
@@ -76,6 +81,12 @@ def facts_of(entity: Any) -> Facts:  # noqa: ANN401
         return reader(entity, entity.dxf.all_existing_dxf_attribs())
     except LEAKS as error:
         raise MalformedError(str(error)) from error
+
+
+def _lost(entity: Any) -> str:  # noqa: ANN401
+    """Kind of the entity in whose place a text stands; ``""`` for any other."""
+    text = entity.dxf.get("text", "") if entity.dxftype() == "TEXT" else ""
+    return text.removeprefix(STAND_IN) if isinstance(text, str) and text.startswith(STAND_IN) else ""
 
 
 Attributes = dict[str, Any]

@@ -2,21 +2,23 @@
 """Bytes to an ezdxf document: as they are, or mended in memory, or not at all."""
 
 import gc
+import io
 import logging
 import mmap
 import re
 from collections import Counter
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ezdxf import recover
-from ezdxf.filemanagement import readfile
+from ezdxf.filemanagement import dxf_file_info, read, readfile
 
 from foparq.errors import UnreadableError, UnsafeError
 from foparq.model.drawing import Repair
+from foparq.read.dxf.damaged import set_aside
 from foparq.read.dxf.facts import LEAKS
 from foparq.read.guard.sniff import Format, format_of
 
@@ -26,6 +28,8 @@ _SECTION = re.compile(rb"(?:^|\n)[ \t]*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n[ \t]
 _NEAR_LINE = re.compile(r"near line:? (\d+)")
 _TAIL = 256  #: bytes within which the end marker must stand
 _R12 = "AC1009"
+
+_Read = tuple[Any, tuple[Repair, ...]]  #: document, and what it took to read it
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,13 +58,7 @@ def load_document(path: Path, most_bytes: int) -> Loaded:
     """
     binary = _sniff(path, most_bytes)
     with _quiet():
-        try:
-            document = readfile(path)
-            repairs: tuple[Repair, ...] = ()
-        except _BROKEN as error:
-            if not binary:
-                _refuse_truncated(path)
-            document, repairs = _recover(path, error)
+        document, repairs = _load(path, binary=binary)
     if not binary:
         repairs += _second_sections(path)
     return Loaded(document, repairs, None if binary else _written_handles(path, document))
@@ -100,20 +98,55 @@ def _refuse_truncated(path: Path) -> None:
         raise UnreadableError("dxf.truncated", file=path.name, line=lines)
 
 
-def _recover(path: Path, first: Exception) -> tuple[Any, tuple[Repair, ...]]:
+def _load(path: Path, *, binary: bool) -> _Read:
+    # Of what fails, only words are kept: an exception would hold the half of a document that was read.
     try:
-        document, auditor = recover.readfile(path)
+        return readfile(path), ()
     except _BROKEN as error:
-        reason = _words(error) or _words(first)
-        near = _NEAR_LINE.search(str(error)) or _NEAR_LINE.search(str(first))
-        if near is not None:
-            raise UnreadableError("dxf.unreadable-line", file=path.name, line=int(near[1]), reason=reason) from error
-        raise UnreadableError("dxf.unreadable", file=path.name, reason=reason) from error
-    repairs = tuple(
+        first = Repair(code=type(error).__name__, detail=_words(error))
+    if not binary:
+        _refuse_truncated(path)
+    gc.collect()
+    try:
+        document, repairs = _audited(*recover.readfile(path))
+    except _BROKEN as error:
+        reason = _words(error)
+    else:
+        return document, repairs or (first,)
+    if not binary and (others := _load_others(path)) is not None:
+        return others
+    near = _NEAR_LINE.search(reason) or _NEAR_LINE.search(first.detail)
+    if near is not None:
+        raise UnreadableError("dxf.unreadable-line", file=path.name, line=int(near[1]), reason=reason)
+    raise UnreadableError("dxf.unreadable", file=path.name, reason=reason)
+
+
+def _load_others(path: Path) -> _Read | None:
+    """Document without the entities that cannot be loaded; ``None`` if that is not what ails the file."""
+    try:
+        info = dxf_file_info(path)
+    except _BROKEN:
+        return None
+    # First only what no way of reading loads; then also what stops the way that mends.
+    for mending in (False, True):
+        gc.collect()
+        aside = set_aside(path, info.version, structure=mending)
+        if aside is None:
+            continue
+        text = io.BytesIO(aside.text)
+        with suppress(*_BROKEN):
+            if mending:
+                document, repairs = _audited(*recover.read(text))
+                return document, aside.repairs + repairs
+            return read(io.TextIOWrapper(text, info.encoding, "surrogateescape")), aside.repairs
+    return None
+
+
+def _audited(document: Any, auditor: Any) -> _Read:  # noqa: ANN401
+    return document, tuple(
         Repair(code=_code(entry.code), detail=str(entry.message), handle=_handle(entry.entity))
         for entry in (*auditor.errors, *auditor.fixes)
     )
-    return document, repairs or (Repair(code=type(first).__name__, detail=_words(first)),)
 
 
 def _words(error: Exception) -> str:
