@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 import shapely
 from ezdxf import recover
+from ezdxf.filemanagement import dxf_file_info
 from tests.read.drawn import read, skipped
 
 from foparq.model.items import Role
+from foparq.read.dxf.damaged import set_aside
 from foparq.read.dxf.kinds import FACES
 
 pytestmark = pytest.mark.shared
@@ -94,6 +96,14 @@ def test_viewports_that_cannot_be_loaded_are_set_aside(shared: Path) -> None:
     assert len(drawing.items) == 0
     assert len(drawing.reading.repairs) == path.read_bytes().count(b"\nVIEWPORT\n") == 9
     assert all("VIEWPORT" in repair.detail for repair in drawing.reading.repairs)
+
+
+def test_no_entity_that_loads_is_set_aside(shared: Path) -> None:
+    paths = [shared / "data/drawings/nasty_dxf" / name for name in NASTY]
+    texts = [path for path in paths if not path.read_bytes().startswith(b"AutoCAD Binary DXF")]
+    assert len(texts) == len(paths) - 1
+    for path in texts:
+        assert set_aside(path, dxf_file_info(path).version, structure=False) is None, path.name
 
 
 def nasty(shared: Path, name: str, **options: Any) -> Any:

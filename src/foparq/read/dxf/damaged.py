@@ -58,15 +58,8 @@ class _Entity:
         return zip(self.lines[::2], self.lines[1::2], strict=True)
 
     def first(self, code: int) -> bytes:
-        """First value of a group code outside groups of applications; empty if there is none."""
-        inside = False
-        for found, value in self.pairs:
-            number = _number(found)
-            if number == 102:  # noqa: PLR2004 - opens and closes the group of an application
-                inside = value.lstrip().startswith(b"{")
-            elif number == code and not inside:
-                return value.strip()
-        return b""
+        """First value of a group code; empty if there is none."""
+        return next((value.strip() for found, value in self.pairs if _number(found) == code), b"")
 
 
 def set_aside(path: Path, version: str, *, structure: bool) -> Aside | None:
