@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the evaluation looks at, and what of the delivery nobody saw."""
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -16,6 +16,8 @@ from foparq.model.part import Part
 from foparq.profile.elements import ElementSpec, LimitedSpec
 
 Parameters = tuple[tuple[str, float, str], ...]
+
+_HANDLES = 5  #: of a kind that are told
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,6 +138,21 @@ def hidden_parts(part: Part) -> list[tuple[str, int]]:
         if _hides(skipped):
             found[skipped.thing] += skipped.count
     return sorted(found.items())
+
+
+def named_parts(part: Part) -> list[str]:
+    """The same with their first handles: ``"1 × LINE (2F)"``, ``"9 × MLINE (30, 31 …)"``."""
+    handles: dict[str, list[str]] = defaultdict(list)
+    if isinstance(part, Drawing):
+        for skipped in part.reading.skipped:
+            if _hides(skipped):
+                handles[skipped.thing] += skipped.handles
+    return [f"{n} × {thing}{_first(handles[thing], n)}" for thing, n in hidden_parts(part)]
+
+
+def _first(handles: Sequence[str], n: int) -> str:
+    told = ", ".join(handles[:_HANDLES])
+    return f" ({told}{' …' if n > len(handles[:_HANDLES]) else ''})" if told else ""
 
 
 def _hides(part: Skipped) -> bool:
