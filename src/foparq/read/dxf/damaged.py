@@ -9,6 +9,7 @@ table or an object, nought stands for a value that decides nothing; where it dec
 from dataclasses import dataclass
 from enum import IntEnum
 from io import BytesIO
+from itertools import pairwise
 from pathlib import Path
 
 from ezdxf.entities import factory
@@ -30,6 +31,7 @@ from foparq.read.dxf.tags import (
     LINKED,
     STRUCTURE,
     Entity,
+    Screen,
     chains,
     entities,
     group_code,
@@ -125,6 +127,7 @@ class _Work:
 
     def __init__(self, file: str, encoding: str, depth: Depth, *, old: bool) -> None:
         self.text, self.repairs = BytesIO(), list[Repair]()
+        self._screen = Screen()
         self._file, self._encoding, self._depth, self._old = file, encoding, depth, old
         # What loads a single entity looks at nothing of the document but whether it is one of R12.
         self._document = new("R12" if old else "R2010") if depth >= Depth.LOADING else None
@@ -154,6 +157,9 @@ class _Work:
 
     def others(self, part: Entity) -> None:
         """The lines as they are, but for numbers that are none or written otherwise."""
+        if self._screen.passes(part.pairs):
+            self.text.writelines(part.lines)
+            return
         for line, (code, value) in part.numbered:
             number = group_code(code)
             if number is not None and not is_number(number, value):
@@ -185,7 +191,8 @@ class _Work:
 
     def _fault(self, chain: list[Entity], following: str) -> _Fault | None:
         for part in chain:
-            fault = self._misfit(part) or _run_together(part)
+            sound = self._screen.passes(part.pairs)
+            fault = None if sound else self._misfit(part) or _run_together(part)
             if fault is None and self._depth >= Depth.POINTS:
                 fault = _half_point(part)
             if fault is None and self._depth >= Depth.LOADING:
@@ -260,11 +267,10 @@ def _run_together(part: Entity) -> _Fault | None:
 
 def _half_point(part: Entity) -> _Fault | None:
     """A point without its y. A LINE may give all its x before all its y."""
-    codes = [(line, group_code(code)) for line, (code, _) in part.numbered]
-    given = {code for _, code in codes}
-    for (line, code), (_, following) in zip(codes, [*codes[1:], (0, None)], strict=True):
-        if code in POINT_CODES and following != code + 10 and not (part.kind == "LINE" and code + 10 in given):
-            return _Fault("no-y", line, code)
+    codes = [group_code(code) for code in part.lines[::2]]
+    for n, (code, following) in enumerate(pairwise([*codes, None])):
+        if code in POINT_CODES and following != code + 10 and not (part.kind == "LINE" and code + 10 in codes):
+            return _Fault("no-y", part.line + 2 * n, code)
     return None
 
 

@@ -21,7 +21,7 @@ from foparq.model.drawing import Repair
 from foparq.read.dxf.damaged import Aside, Depth, set_aside
 from foparq.read.dxf.facts import LEAKS
 from foparq.read.dxf.removed import handle_in, removed_entities
-from foparq.read.dxf.tags import may_be_spoilt
+from foparq.read.dxf.tags import Screen
 from foparq.read.guard.sniff import Format, format_of
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
@@ -106,7 +106,7 @@ def _load(path: Path, *, binary: bool) -> _Read:
     # A value that is no number is exchanged first: mending would read it as some number.
     info = _info(path)
     with path.open("rb") as stream:
-        spoilt = may_be_spoilt(stream)
+        spoilt = not Screen().passes(zip(stream, stream, strict=False))
     if spoilt:
         _refuse_truncated(path)
     aside = set_aside(path, *info, Depth.NUMBERS) if spoilt else None

@@ -5,6 +5,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import BinaryIO
 
 from ezdxf.entities import factory
@@ -91,6 +92,7 @@ def out_of_step(entity: Entity) -> bool:
     )
 
 
+@lru_cache(maxsize=4096)  # a file has few, on half of its lines
 def group_code(line: bytes) -> int | None:
     """Group code of a line, or ``None`` if it holds none."""
     return int(line) if _WHOLE.fullmatch(line) else None
@@ -122,21 +124,16 @@ def whole_as_real(code: int, value: bytes) -> bool:
     return TYPE_TABLE.get(code, str) is int and not _WHOLE.fullmatch(value) and is_number(code, value)
 
 
-def may_be_spoilt(stream: BinaryIO) -> bool:
-    """Whether some value may be no number, or an entity may hold two handles or layers; false is certain.
-
-    O(lines), a fraction of the time that reading them takes.
-    """
-    tests = _Tests()
-    return any(not tests[code](value) for code, value in zip(stream, stream, strict=False))
-
-
-class _Tests(dict[bytes, Callable[[bytes], object]]):
-    """What a value must meet, by the line of its group code."""
+class Screen(dict[bytes, Callable[[bytes], object]]):
+    """What a value must meet, by the line of its group code; costs a fraction of the time that reading takes."""
 
     def __init__(self) -> None:
         super().__init__()
         self._once: set[int] = set()  # of these, the entity has one
+
+    def passes(self, pairs: Iterable[Pair]) -> bool:
+        """Whether every value is for certain the number that is due, and no entity holds two handles or layers."""
+        return all(self[code](value) for code, value in pairs)
 
     def __missing__(self, line: bytes) -> Callable[[bytes], object]:
         code = group_code(line)
