@@ -85,8 +85,8 @@ def test_letters_instead_of_a_number_cost_that_line_alone(
     assert part.reason.opens
     (repair,) = drawing.reading.repairs
     line = 2 * hurt.index(next(tag for tag in hurt if tag[1] == b"abc")) + 2
-    assert repair.handle == handles[number]
-    assert repair.detail == f'line {line}, LINE: "abc" of group code {code.decode()} is no number'
+    assert (repair.line, repair.kind, repair.handle, repair.layer) == (line, "LINE", handles[number], "PAREDE")
+    assert (repair.code, repair.group, repair.text) == ("no-number", int(code), "abc")
 
 
 @pytest.mark.parametrize("value", [b"", b"-", b"\xc3\xa7\xc3\xa3o", b"\xff\xfe\x80", b"nought" * 1000])
@@ -94,7 +94,7 @@ def test_whatever_stands_there_is_told_in_bounds(tmp_path: Path, value: bytes) -
     tags = tags_of(ten_lines(), tmp_path)
     drawing = read_tags(spoilt(tags, span(tags, b"LINE", 3), b"10", value), tmp_path)
     assert len(drawing.items) == 9
-    told = drawing.reading.repairs[0].detail
+    told = drawing.reading.repairs[0].text
     assert len(told.encode()) < 200  # no surrogates either
 
 
@@ -200,7 +200,7 @@ def test_items_without_handles_keep_their_numbers(tmp_path: Path) -> None:
 
 
 def test_two_ways_of_damage_that_need_two_ways_of_reading(tmp_path: Path) -> None:
-    # Only mending reads a point without its y, and mending wants extended data well formed.
+    # Only mending reads a table with half a point, and mending wants extended data well formed.
     document = ten_lines()
     lines = list(document.modelspace())
     document.appids.add("DETALHE")
@@ -210,9 +210,9 @@ def test_two_ways_of_damage_that_need_two_ways_of_reading(tmp_path: Path) -> Non
     tags = spoilt(tags, span(tags, b"LINE", 2), b"1002", None)
     alone = read_tags(tags, tmp_path)
     assert len(alone.items) == 9
-    drawing = read_tags(spoilt(tags, span(tags, b"LINE", 4), b"20", None), tmp_path)
-    assert len(drawing.items) == 7
-    assert skipped(drawing) == {(MALFORMED, "LINE"): 3}
+    drawing = read_tags(spoilt(tags, span(tags, b"VPORT", section=b"TABLES"), b"20", None), tmp_path)
+    assert len(drawing.items) == 8
+    assert skipped(drawing) == {(MALFORMED, "LINE"): 2}
 
 
 def test_letters_instead_of_a_group_code(tmp_path: Path) -> None:

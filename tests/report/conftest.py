@@ -167,6 +167,7 @@ def findings_of(
         size=np.array([row[3] for row in rows], dtype=float),
         unit=column([unit] * n),
         limit=np.full(n, limit),
+        told=column([""] * n),
         waived=np.zeros(n, dtype=bool),
     )
 

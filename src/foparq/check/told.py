@@ -37,7 +37,7 @@ def findings_of(call: Call, subject: Subject, inputs: tuple[Named, ...], found: 
         source=_same(subject.part.path, n), layer=layer, item=item, handle=first.handle[found.row],
         inserts=first.inserts[found.row], other=other, other_layer=other_layer, where=places.where, sheet=places.sheet,
         place=places.point, size=found.size, unit=_same(rule.size_unit, n), limit=np.full(n, limit),
-        waived=np.zeros(n, dtype=bool),
+        told=first.told[found.row], waived=np.zeros(n, dtype=bool),
     )  # fmt: skip
 
 

@@ -4,7 +4,7 @@
 from collections import defaultdict
 from collections.abc import Sequence
 
-from foparq.evaluate.evidence import Evidence, hidden_parts
+from foparq.evaluate.evidence import Evidence, named_parts
 from foparq.evaluate.quality import Element, QualityReport, Reason, Verdict, because
 from foparq.evaluate.tally import where_broken
 from foparq.evaluate.verdict import crashes, lost_files
@@ -50,8 +50,8 @@ def _unseen(evidence: Evidence) -> list[Reason]:
     """Parts of the files that no rule saw."""
     why = []
     for part in evidence.delivery.parts:
-        if hidden := hidden_parts(part):
-            why.append(because("files.unseen", file=part.path, parts=[f"{n} × {kind}" for kind, n in hidden]))
+        if hidden := named_parts(part):
+            why.append(because("files.unseen", file=part.path, parts=hidden))
         if not any(_saw(outcome) for outcome in evidence.outcomes if outcome.source == part.path):
             why.append(because("files.nothing", file=part.path))
     if not evidence.delivery.parts and not evidence.refused:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the evaluation looks at, and what of the delivery nobody saw."""
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
@@ -18,6 +18,8 @@ from foparq.model.statements import Confirmation
 from foparq.profile.elements import ElementSpec, LimitedSpec
 
 Parameters = tuple[tuple[str, float, str], ...]
+
+_HANDLES = 5  #: of a kind that are told
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -150,6 +152,21 @@ def hidden_parts(part: Part, *, but: Collection[SkippedReason] = ()) -> list[tup
         if skipped.reason.opens and skipped.reason not in but:
             found[skipped.thing] += skipped.count
     return sorted(found.items())
+
+
+def named_parts(part: Part) -> list[str]:
+    """The same with their first handles: ``"1 × LINE (2F)"``, ``"9 × MLINE (30, 31 …)"``."""
+    handles: dict[str, list[str]] = defaultdict(list)
+    if isinstance(part, Drawing):
+        for skipped in part.reading.skipped:
+            if skipped.reason.opens:
+                handles[skipped.thing] += skipped.handles
+    return [f"{n} × {thing}{_first(handles[thing], n)}" for thing, n in hidden_parts(part)]
+
+
+def _first(handles: Sequence[str], n: int) -> str:
+    told = ", ".join(handles[:_HANDLES])
+    return f" ({told}{' …' if n > len(handles[:_HANDLES]) else ''})" if told else ""
 
 
 def _finite(value: float) -> bool:

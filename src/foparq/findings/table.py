@@ -43,6 +43,7 @@ class Findings:
     size: Reals  #: (n,) magnitude
     unit: Texts  #: (n,) unit of the magnitude: ``"m"``, ``"m2"``, ``"items"``
     limit: Reals  #: (n,) the tolerance that was exceeded, in the same unit; NaN if none
+    told: Texts  #: (n,) what the reader of the file says of it, as JSON: a repair; ``""`` if nothing
     waived: Flags  #: (n,)
 
     def __len__(self) -> int:

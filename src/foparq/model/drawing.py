@@ -102,11 +102,16 @@ class Skipped:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Repair:
-    """One thing that had to be mended in memory before the file could be read."""
+    """One thing that had to be changed or left out in memory before the file could be read."""
 
-    code: str  #: the reader's own code
-    detail: str  #: the reader's own words, in English
+    code: str  #: id in the ``report`` catalogue under ``repair.``, or the reader's own code
+    detail: str = ""  #: the reader's own words, in English
     handle: str = ""
+    line: int = 0  #: of the file, from 1; 0 if nobody knows
+    kind: str = ""  #: entity type, or name of a header variable
+    layer: str = ""
+    group: int = -1  #: group code of the damaged value; -1 if none is meant
+    text: str = ""  #: what stands there, as far as it is told
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

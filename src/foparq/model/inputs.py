@@ -30,6 +30,11 @@ class Named:
     def __len__(self) -> int:
         return len(self.layer)
 
+    @property
+    def told(self) -> Texts:
+        """(n,) what the reader says of a row, as :attr:`Repairs.says`; ``""`` where it says nothing."""
+        return np.full(len(self), "", dtype=object)
+
     def take(self, rows: Index | Flags) -> Self:
         """The chosen rows, in that order."""
         return type(self)(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})
@@ -67,6 +72,12 @@ class Repairs(Named):
     """What had to be mended before the file could be read."""
 
     code: Texts  #: (n,) the reader's code
+    says: Texts  #: (n,) the repair, as JSON
+
+    @property
+    def told(self) -> Texts:
+        """(n,) the repair, as JSON."""
+        return self.says
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,7 +2,8 @@
 """The run as JSON: ``audit.json``."""
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -11,10 +12,11 @@ from foparq import __version__
 from foparq.evaluate.quality import Element, Reason, Verdict
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import Source
+from foparq.model.drawing import Repair
 from foparq.report.harmless import json_lines
 from foparq.report.record import AuditRecord
 from foparq.report.rows import number, written_rows
-from foparq.report.sentences import reason_sentence, source_sentence
+from foparq.report.sentences import reason_sentence, repair_sentence, source_sentence
 from foparq.report.words import Words
 
 SCHEMA = "foparq-audit/1"
@@ -33,6 +35,7 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
     """
     words = Words(record.language)
     names = Counter(record.findings.name.tolist())
+    repairs = {drawing.path: drawing.reading.repairs[: record.written] for drawing in record.delivery.drawings}
     return {
         "schema": SCHEMA,
         "foparq": __version__,
@@ -54,7 +57,7 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         },
         "product_class": record.product_class,
         "scale": f"1:{record.scale:g}" if record.scale else None,
-        "inputs": [_source(words, source) for source in record.delivery.sources],
+        "inputs": [_source(words, source, repairs.get(source.path, ())) for source in record.delivery.sources],
         "elements": [_element(words, element) for element in record.quality.elements],
         "checks": [_outcome(outcome) for outcome in record.outcomes],
         "crashed": list(record.crashed),
@@ -95,7 +98,7 @@ def _field(words: Words, value: object) -> object:
     return _value(value)
 
 
-def _source(words: Words, source: Source) -> dict[str, Any]:
+def _source(words: Words, source: Source, repairs: Sequence[Repair]) -> dict[str, Any]:
     return {
         "path": source.path,
         "role": source.role,
@@ -114,6 +117,7 @@ def _source(words: Words, source: Source) -> dict[str, Any]:
             }
             for part in source.skipped
         ],
+        "repairs": [{**asdict(repair), "message": repair_sentence(words, repair)} for repair in repairs],
         "error": {"id": source.error, "text": source_sentence(words, source)} if source.error else None,
     }
 

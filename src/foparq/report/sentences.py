@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Sentences that every report shares: findings, reasons, outcomes and files in the language of the reader."""
 
+import json
 from collections.abc import Iterable
 from functools import cache
 from string import Formatter
@@ -14,7 +15,7 @@ from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, SetAside
 from foparq.findings.table import Findings
 from foparq.model.delivery import Source
-from foparq.model.drawing import Skipped
+from foparq.model.drawing import Repair, Skipped
 from foparq.report.record import AuditRecord
 from foparq.report.words import Words, printable
 
@@ -33,7 +34,7 @@ def finding_sentences(words: Words, findings: Findings, rows: Index) -> list[str
     -------
     list of str, k
         ``rules.CODE.finding`` with ``size``, ``limit`` (quantities), ``layer``, ``item``, ``handle``, ``other``,
-        ``inserts`` and ``source`` filled in.
+        ``inserts``, ``source`` and ``told`` (a repair) filled in.
 
     Raises
     ------
@@ -75,6 +76,8 @@ def _column(words: Words, findings: Findings, field: str, rows: Index) -> list[s
     if field not in _FIELDS:
         raise KeyError(field)
     values = getattr(findings, field)[rows].tolist()
+    if field == "told":
+        return [_mended(words, value) for value in values]
     if field in _TEXTS:
         return [printable(str(value)) for value in values]
     quantity = cache(words.quantity)  # a limit is the same for all
@@ -82,7 +85,21 @@ def _column(words: Words, findings: Findings, field: str, rows: Index) -> list[s
 
 
 _TEXTS = frozenset({"layer", "item", "handle", "other", "inserts", "source"})
-_FIELDS = _TEXTS | {"size", "limit"}
+_FIELDS = _TEXTS | {"size", "limit", "told"}
+
+
+def _mended(words: Words, repair: str) -> str:
+    return repair_sentence(words, Repair(**json.loads(repair))) if repair else words("report.repair.unknown")
+
+
+def repair_sentence(words: Words, repair: Repair) -> str:
+    """What was changed or left out, and where: ``report.repair.CODE``; for a reader's own code, its words."""
+    message = f"report.repair.{repair.code}"
+    if words.find(message) is None:
+        handle = "" if repair.handle in repair.detail else f" {repair.handle}"
+        return words("report.repair.other", detail=repair.detail + handle)
+    fields = {name: getattr(repair, name) for name in ("line", "layer", "group", "text", "detail")}
+    return words(message, what=" ".join(part for part in (repair.kind, repair.handle) if part), **fields)
 
 
 def rule_meaning(words: Words, code: str) -> str:

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """What a drawing's file says beside its linework, as columns: one row a statement."""
 
+import json
 from collections import Counter
 from collections.abc import Callable
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -39,8 +41,12 @@ def _about_file(layers: list[str], handles: list[str]) -> dict[str, Any]:
 
 def _repairs(drawing: Drawing) -> Repairs:
     repairs = drawing.reading.repairs
-    names = _about_file([""] * len(repairs), [repair.handle for repair in repairs])
-    return Repairs(code=np.array([repair.code for repair in repairs], dtype=object), **names)
+    names = _about_file([repair.layer for repair in repairs], [repair.handle for repair in repairs])
+    return Repairs(
+        code=np.array([repair.code for repair in repairs], dtype=object),
+        says=np.array([json.dumps(asdict(repair)) for repair in repairs], dtype=object),
+        **names,
+    )
 
 
 def _bombs(drawing: Drawing) -> Bombs:

@@ -18,8 +18,10 @@ from ezdxf.filemanagement import dxf_file_info, read, readfile
 
 from foparq.errors import UnreadableError, UnsafeError
 from foparq.model.drawing import Repair
-from foparq.read.dxf.damaged import set_aside
+from foparq.read.dxf.damaged import Aside, Depth, set_aside
 from foparq.read.dxf.facts import LEAKS
+from foparq.read.dxf.removed import handle_in, removed_entities
+from foparq.read.dxf.tags import Screen
 from foparq.read.guard.sniff import Format, format_of
 
 _BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
@@ -85,7 +87,7 @@ def _second_sections(path: Path) -> tuple[Repair, ...]:
     with path.open("rb") as stream, mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as text:
         names = Counter(_SECTION.findall(text))
     twice = sorted(name.decode("ascii", "replace") for name, count in names.items() if count > 1)
-    return tuple(Repair(code="SECTION_TWICE", detail=f"section {name} occurs more than once") for name in twice)
+    return tuple(Repair(code="section-twice", text=name) for name in twice)
 
 
 def _refuse_truncated(path: Path) -> None:
@@ -99,51 +101,105 @@ def _refuse_truncated(path: Path) -> None:
 
 
 def _load(path: Path, *, binary: bool) -> _Read:
+    if binary:
+        return _load_binary(path)
+    # A value that is no number is exchanged first: mending would read it as some number.
+    info = _info(path)
+    with path.open("rb") as stream:
+        spoilt = not Screen().passes(zip(stream, stream, strict=False))
+    if spoilt:
+        _refuse_truncated(path)
+    aside = set_aside(path, *info, Depth.NUMBERS) if spoilt else None
     # Of what fails, only words are kept: an exception would hold the half of a document that was read.
+    try:
+        return (_strictly(aside, info[1]), aside.repairs) if aside else (readfile(path), ())
+    except _BROKEN as error:
+        first = Repair(code=type(error).__name__, detail=_words(error))
+    _refuse_truncated(path)
+    gc.collect()
+    known, aside = aside, set_aside(path, *info, Depth.POINTS)
+    if aside and aside != known:
+        with suppress(*_BROKEN):
+            return _strictly(aside, info[1]), aside.repairs
+        gc.collect()
+    try:
+        return _mended(path, aside, first, info[1])
+    except _BROKEN as error:
+        reason = _words(error)
+    if (others := _load_others(path, info)) is not None:
+        return others
+    raise _unreadable(path, reason, first)
+
+
+def _load_binary(path: Path) -> _Read:
     try:
         return readfile(path), ()
     except _BROKEN as error:
         first = Repair(code=type(error).__name__, detail=_words(error))
-    if not binary:
-        _refuse_truncated(path)
     gc.collect()
     try:
-        document, repairs = _audited(*recover.readfile(path))
+        return _mended(path, None, first)
     except _BROKEN as error:
         reason = _words(error)
-    else:
-        return document, repairs or (first,)
-    if not binary and (others := _load_others(path)) is not None:
-        return others
+    raise _unreadable(path, reason, first)
+
+
+def _unreadable(path: Path, reason: str, first: Repair) -> UnreadableError:
     near = _NEAR_LINE.search(reason) or _NEAR_LINE.search(first.detail)
     if near is not None:
-        raise UnreadableError("dxf.unreadable-line", file=path.name, line=int(near[1]), reason=reason)
-    raise UnreadableError("dxf.unreadable", file=path.name, reason=reason)
+        return UnreadableError("dxf.unreadable-line", file=path.name, line=int(near[1]), reason=reason)
+    return UnreadableError("dxf.unreadable", file=path.name, reason=reason)
 
 
-def _load_others(path: Path) -> _Read | None:
-    """Document without the entities that cannot be loaded; ``None`` if that is not what ails the file."""
+def _info(path: Path) -> tuple[str, str]:
+    """Version and encoding as the header tells; those of the oldest files if it cannot be read."""
     try:
         info = dxf_file_info(path)
     except _BROKEN:
-        return None
+        return _R12, "cp1252"
+    return info.version, info.encoding
+
+
+def _strictly(aside: Aside, encoding: str) -> Any:  # noqa: ANN401 - ezdxf.Drawing
+    return read(io.TextIOWrapper(io.BytesIO(aside.text), encoding, "surrogateescape"))
+
+
+def _mended(path: Path, aside: Aside | None, first: Repair, encoding: str = "") -> _Read:
+    """Document as ezdxf mends it, and what was changed or left out; ``first`` if nobody tells.
+
+    Parameters
+    ----------
+    encoding : str
+        Of a text file, whose entities are compared with those that are left; empty for a binary one.
+    """
+    document, auditor = recover.read(io.BytesIO(aside.text)) if aside else recover.readfile(path)
+    repairs = _audited(auditor)
+    if encoding:
+        with path.open("rb") as stream:
+            removed = removed_entities(stream, document, encoding, repairs)
+        gone = {repair.handle.upper() for repair in removed}
+        repairs = (*removed, *(repair for repair in repairs if handle_in(repair) not in gone))
+    repairs = (*(aside.repairs if aside else ()), *repairs)
+    return document, tuple(dict.fromkeys(repairs)) or (first,)
+
+
+def _load_others(path: Path, info: tuple[str, str]) -> _Read | None:
+    """Document without the entities that cannot be loaded; ``None`` if that is not what ails the file."""
     # First only what no way of reading loads; then also what stops the way that mends.
-    for mending in (False, True):
+    for depth in (Depth.LOADING, Depth.STRUCTURE):
         gc.collect()
-        aside = set_aside(path, info.version, structure=mending)
+        aside = set_aside(path, *info, depth)
         if aside is None:
             continue
-        text = io.BytesIO(aside.text)
         with suppress(*_BROKEN):
-            if mending:
-                document, repairs = _audited(*recover.read(text))
-                return document, aside.repairs + repairs
-            return read(io.TextIOWrapper(text, info.encoding, "surrogateescape")), aside.repairs
+            if depth is Depth.STRUCTURE:
+                return _mended(path, aside, aside.repairs[0], info[1])
+            return _strictly(aside, info[1]), aside.repairs
     return None
 
 
-def _audited(document: Any, auditor: Any) -> _Read:  # noqa: ANN401
-    return document, tuple(
+def _audited(auditor: Any) -> tuple[Repair, ...]:  # noqa: ANN401
+    return tuple(
         Repair(code=_code(entry.code), detail=str(entry.message), handle=_handle(entry.entity))
         for entry in (*auditor.errors, *auditor.fixes)
     )

@@ -14,6 +14,7 @@ from foparq.report.sentences import (
     outcome_because,
     outcome_scope,
     parameters_sentence,
+    repair_sentence,
     skipped_sentence,
 )
 from foparq.report.words import Words, printable
@@ -67,7 +68,7 @@ class LookedAt:
     skipped: tuple[SkippedView, ...]
     skipped_more: str
     hidden: tuple[str, ...]
-    repairs: tuple[tuple[str, str], ...]  #: file and the reader's words
+    repairs: tuple[tuple[str, str], ...]  #: file and what was changed or left out
     repairs_more: str
 
     @property
@@ -91,7 +92,7 @@ def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -
     ended = {Status.CLEAN, Status.FAULTY}
     skipped = [(source, part) for source in record.delivery.sources for part in source.skipped]
     repairs = [
-        (printable(drawing.path), printable(" ".join(part for part in (repair.detail, repair.handle) if part)))
+        (printable(drawing.path), repair_sentence(words, repair))
         for drawing in record.delivery.drawings
         for repair in drawing.reading.repairs
     ]
