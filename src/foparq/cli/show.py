@@ -16,6 +16,7 @@ from foparq.model.delivery import LOST, SourceStatus
 from foparq.report.files import text_of
 from foparq.report.formats import format_named
 from foparq.report.record import AuditRecord
+from foparq.report.residuals import standing_words, tied_words
 from foparq.report.rows import finding_rows
 from foparq.report.sentences import (
     aside_sentence,
@@ -81,6 +82,7 @@ def _text(record: AuditRecord, say: Words, written: Sequence[Path]) -> None:
         click.echo()
         for element in record.quality.elements:
             _element(element, say)
+        _worst(record, say)
     _findings(record, say)
     _not_checked(record, say)
     if written:
@@ -124,6 +126,19 @@ def _element(element: Element, say: Words) -> None:
     for reason in element.why:
         if element.status.value not in {"pass", "not-applicable"}:
             click.echo(f"           {reason_sentence(say, reason)}")
+
+
+def _worst(record: AuditRecord, say: Words) -> None:
+    if (worst := record.quality.worst) is None:
+        return
+    element, row = worst
+    click.echo()
+    click.echo(
+        say(
+            "cli.worst", element=element.id, id=row.id, difference=(row.difference, "m"), tied=tied_words(say, row),
+            standing=standing_words(say, row),
+        )
+    )  # fmt: skip
 
 
 def _findings(record: AuditRecord, say: Words) -> None:

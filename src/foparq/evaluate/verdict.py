@@ -3,6 +3,7 @@
 
 from collections.abc import Iterable, Sequence
 
+from foparq.evaluate.diagnosis import diagnosis
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
 from foparq.evaluate.scale import scale_doubts
@@ -34,8 +35,8 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     if doubted:
         return _report(Verdict.UNDECIDED, (*doubted, *failing, *doubts), elements, evidence)
     if failed:
-        shift = [because("verdict.shift")] if _shifted(profile, elements) else []
-        return _report(Verdict.REJECTED, (*failing, *shift, *doubts), elements, evidence)
+        found = diagnosis(profile, evidence, elements)
+        return _report(Verdict.REJECTED, (*failing, *found, *doubts), elements, evidence)
     if doubts:
         return _report(Verdict.UNDECIDED, doubts, elements, evidence)
     why = [because("verdict.accepted", elements=[element.id for element in required])]
@@ -93,16 +94,6 @@ def _naming(reason: Reason, names: list[str]) -> Reason:
         message=reason.message,
         fields=tuple((name, names if name == "element" else value) for name, value in reason.fields),
     )
-
-
-def _shifted(profile: Profile, elements: Sequence[Element]) -> bool:
-    """Good distances with bad positions point to a systematic shift or rotation."""
-
-    def statuses(kind: str) -> set[ElementStatus]:
-        ids = [spec.id for spec in profile.elements if spec.kind == kind]
-        return {element.status for element in elements if any(element.id in results_of(id_) for id_ in ids)}
-
-    return ElementStatus.FAIL in statuses("absolute") and statuses("relative") == {ElementStatus.PASS}
 
 
 def lost_files(evidence: Evidence) -> list[Reason]:

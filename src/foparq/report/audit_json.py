@@ -3,12 +3,13 @@
 
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from foparq import __version__
-from foparq.evaluate.quality import Element, Reason, Verdict
+from foparq.evaluate.quality import Element, Reason, Residuals, Verdict
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import Source
 from foparq.report.harmless import json_lines
@@ -56,6 +57,7 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         "scale": f"1:{record.scale:g}" if record.scale else None,
         "inputs": [_source(words, source) for source in record.delivery.sources],
         "elements": [_element(words, element) for element in record.quality.elements],
+        "residuals": [_residuals(element.id, residuals) for element, residuals in record.quality.measured],
         "checks": [_outcome(outcome) for outcome in record.outcomes],
         "crashed": list(record.crashed),
         "findings": {
@@ -135,6 +137,21 @@ def _element(words: Words, element: Element) -> dict[str, Any]:
         "parameters": _parameters(element.parameters),
         "method": element.method,
         "details": [{"name": name, "found": number(found), "of": number(of)} for name, found, of in element.details],
+    }
+
+
+def _residuals(element: str, residuals: Residuals) -> dict[str, Any]:
+    return {
+        "element": element,
+        "axis": residuals.axis,
+        "n": residuals.n,
+        "rmse": residuals.rmse,
+        "rmse_without_outliers": residuals.rest,
+        "test": {"name": "generalized ESD", "significance": residuals.significance, "most": residuals.most},
+        "rows": [
+            {**{key: value for key, value in asdict(row).items() if key != "place"}, "place": _value(row.place)}
+            for row in residuals.rows
+        ],
     }
 
 
