@@ -18,6 +18,7 @@ from foparq.findings.because import Because
 from foparq.findings.hits import Hits
 from foparq.findings.outcome import Outcome, Status
 from foparq.geom.places import place_on
+from foparq.geom.sizes import smaller_than
 from foparq.model.drawing import Drawing, UnitOrigin
 from foparq.model.inputs import Areas, Features, Lines, Named
 from foparq.model.items import Role
@@ -48,6 +49,7 @@ class DrawingSubject(Subject):
         self.drawing = part
         self.columns = Columns(part, hidden=profile.reading.hidden == "check")
         self._taken: dict[tuple[type, Patterns], Taken] = {}
+        self._small: dict[float, Index] = {}
 
     @property
     def part(self) -> Drawing:
@@ -122,6 +124,14 @@ class DrawingSubject(Subject):
             return 1  # a statement about the file: the file was checked
         drawn = rows[self.drawing.items.role[rows] != Role.POINT]
         return len(np.unique(np.concatenate([drawn, faulty[faulty >= 0]])))
+
+    def too_small(self, rows: Index, visible: float) -> Index:
+        """Lines and areas that fit into a smaller circle; points have no size."""
+        if visible not in self._small:
+            drawn = np.flatnonzero(self.columns.role != Role.POINT)
+            self._small[visible] = self.columns.rows[drawn[smaller_than(self.columns.geometry[drawn], visible)]]
+        found: Index = np.intersect1d(rows, self._small[visible])
+        return found
 
     def named(self, rows: Index) -> tuple[Texts, Texts]:
         """Item ids and layers."""
