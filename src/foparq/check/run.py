@@ -201,7 +201,8 @@ def _looked(
     """What the rule finds, or why it cannot look."""
     if call.rule.metric and (doubt := subject.doubt(outcomes)).because is not Because.RAN:
         return replace(outcome, because=doubt.because, names=doubt.names), None
-    outcome = replace(outcome, parameters=call.parameters)
+    undeclared = subject.undeclared(call.rule.subject, visible)
+    outcome = replace(outcome, parameters=call.parameters, undeclared=undeclared)
     seen = judged(call, rules, outcomes, subject)
     small = subject.too_small(np.union1d(seen.inputs[0].row, seen.unjudged), visible)
     outcome = replace(outcome, unjudged=seen.unjudged, aside=seen.named, small=small)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Counts over the outcomes of named rules: faulty features, found faults, and out of how many."""
 
+import json
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -36,6 +37,7 @@ class Tally:
     extent: (
         tuple[float, float] | None
     )  #: length of what is at fault, and of all linework, metres; ``None`` if it has none
+    undeclared: tuple[tuple[str, tuple[str, ...]], ...]  #: path, and layers that look like a coverage nobody declares
     parts: tuple[tuple[str, float, float], ...]  #: path, faulty, checked: of each drawing, where there are several
     rules: tuple[tuple[str, float, float], ...]  #: name, faults, features checked
     absent: tuple[str, ...]  #: named rules that were not part of the audit
@@ -77,6 +79,7 @@ def tally(evidence: Evidence, names: Sequence[str]) -> Tally:
         unrun=sum(part.unrun for part in parts),
         small=sum(part.small for part in parts),
         extent=_extent(evidence, counted),
+        undeclared=tuple(sorted({(one.source, one.undeclared) for one in counted if one.undeclared})),
         parts=tuple(row for row in told if row[2]) if len(told) > 1 else (),
         rules=tuple(_rule(name, counted, sizes) for name in names if any(outcome.name == name for outcome in counted)),
         absent=tuple(name for name in names if not any(outcome.name == name for outcome in named)),
@@ -117,10 +120,20 @@ def unfit_remark(found: Tally, name: str) -> tuple[Reason, ...]:
     return (because("checks.unfit", element=name, items=list(found.unfit[:_ITEMS]), n=len(found.unfit)),)
 
 
+def undeclared_reasons(found: Tally, name: str) -> tuple[Reason, ...]:
+    """Layers that look like a coverage and are not declared as one, with the line of the manifest that does."""
+    return tuple(
+        because("checks.undeclared", element=name, file=path, line=f"areas = {json.dumps(layers, ensure_ascii=False)}")
+        for path, layers in found.undeclared
+    )
+
+
 def judge_nothing(spec: ElementSpec, evidence: Evidence, found: Tally) -> Judgement:
     """Status of an element whose rules checked nothing at all: never a pass."""
     if broken := broken_reasons(found, spec.id):
         return judged(ElementStatus.UNDECIDED, *broken)
+    if undeclared := undeclared_reasons(found, spec.id):
+        return judged(ElementStatus.NOT_ASSESSED, *undeclared, *unseen(evidence, spec.id))
     if found.small:
         small = because("checks.too-small", element=spec.id, n=found.small)
         return judged(ElementStatus.NOT_ASSESSED, small, *unseen(evidence, spec.id))

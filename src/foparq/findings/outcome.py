@@ -57,6 +57,9 @@ class Outcome:
     aside: tuple[SetAside, ...] = ()  #: the first of them, those that the rule cannot work with before others
     because: Because = Because.RAN
     names: tuple[str, ...] = ()  #: what ``because`` speaks of: required rules
+    undeclared: tuple[
+        str, ...
+    ] = ()  #: patterns of layers that look like what the rule looks at and are not declared so
     parameters: tuple[tuple[str, float, str], ...] = ()  #: name, value, SI unit
     seconds: float = 0.0  #: of the processor
     about_file: bool = False  #: the rule looks at statements of the file, not at items

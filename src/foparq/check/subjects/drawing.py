@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 
 from foparq.check.drawn.columns import Columns
+from foparq.check.drawn.coverages import undeclared_coverages
 from foparq.check.drawn.facts import EXAMINED, FACTS
 from foparq.check.drawn.stance import better_plane
 from foparq.check.drawn.unit_evidence import against
@@ -50,6 +51,7 @@ class DrawingSubject(Subject):
         self.columns = Columns(part, hidden=profile.reading.hidden == "check")
         self._taken: dict[tuple[type, Patterns], Taken] = {}
         self._small: dict[float, Index] = {}
+        self._undeclared: tuple[str, ...] | None = None
 
     @property
     def part(self) -> Drawing:
@@ -132,6 +134,15 @@ class DrawingSubject(Subject):
             self._small[visible] = self.columns.rows[drawn[smaller_than(self.columns.geometry[drawn], visible)]]
         found: Index = np.intersect1d(rows, self._small[visible])
         return found
+
+    def undeclared(self, kind: type, visible: float) -> tuple[str, ...]:
+        """Layers whose closed lines look like a coverage; places nearer than a twentieth of what is visible are one."""
+        if kind is not Areas:
+            return ()
+        if self._undeclared is None:
+            found = undeclared_coverages(self.columns, coincide=visible / 20)
+            self._undeclared = tuple(literal(layer) for layer in found)
+        return self._undeclared
 
     def named(self, rows: Index) -> tuple[Texts, Texts]:
         """Item ids and layers."""

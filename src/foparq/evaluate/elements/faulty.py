@@ -4,7 +4,15 @@
 from foparq.evaluate.evidence import Evidence, Judgement, Parameters, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
-from foparq.evaluate.tally import Tally, broken_reasons, iso_counts, judge_nothing, tally, unfit_remark
+from foparq.evaluate.tally import (
+    Tally,
+    broken_reasons,
+    iso_counts,
+    judge_nothing,
+    tally,
+    undeclared_reasons,
+    unfit_remark,
+)
 from foparq.findings.because import Because
 from foparq.profile.elements import FaultyRateSpec
 
@@ -70,7 +78,7 @@ def _judge(spec: FaultyRateSpec, evidence: Evidence, found: Tally, limit: float)
         "element": name, "faulty": found.faulty, "checked": found.checked, "value": (rate, "1"), "limit": (limit, "1"),
     }  # fmt: skip
     preview = because("checks.preview", element=name, rules=list(found.preview))
-    remarks = (*unfit_remark(found, name), *((preview,) if found.preview else ()))
+    remarks = (*undeclared_reasons(found, name), *unfit_remark(found, name), *((preview,) if found.preview else ()))
     if free := sum(outcome.found for outcome in evidence.outcomes if outcome.name == "free-end"):
         remarks = (*remarks, because("faulty.free", element=name, n=free))
     if any(why is Because.CRASHED for why, _ in found.broken):

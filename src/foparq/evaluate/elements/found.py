@@ -5,7 +5,15 @@ from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.measures import Measure, measure_counting, measures
 from foparq.evaluate.quality import Element, ElementStatus, because
-from foparq.evaluate.tally import Tally, broken_reasons, iso_counts, judge_nothing, tally, unfit_remark
+from foparq.evaluate.tally import (
+    Tally,
+    broken_reasons,
+    iso_counts,
+    judge_nothing,
+    tally,
+    undeclared_reasons,
+    unfit_remark,
+)
 from foparq.findings.because import Because
 from foparq.profile.elements import FoundRateSpec
 
@@ -42,6 +50,8 @@ def found_rate(spec: FoundRateSpec, evidence: Evidence) -> tuple[Element, ...]:
         judgement = judged(status, *((no_limit,) if spec.required and no_limit else ()), reported, *doubts)
     else:
         judgement = judged(ElementStatus.UNDECIDED, *filter(None, [no_limit]))
+    if (undeclared := undeclared_reasons(found, spec.id)) and judgement.status is not ElementStatus.FAIL:
+        judgement = judged(ElementStatus.NOT_ASSESSED, *dict.fromkeys([*undeclared, *judgement.why]))
     parameters = (("found", float(found.found), "items"), ("checked", float(found.checked), "items"))
     shown = parameters if rate is None or not counting else (*parameters, ("rate", rate, "1"))
     made = element(
