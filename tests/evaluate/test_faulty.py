@@ -42,7 +42,7 @@ def test_the_station_before_correction() -> None:
     assert (q3_overlap.value, q3_overlap.n) == (2 / 976, 976)
     assert (q3_dangle.value, q3_dangle.n) == (64 / 976, 976)
     assert f"{q3_overlap.value:.1%} {q3_dangle.value:.1%}" == "0.2% 6.6%"
-    assert (q3_dangle.status, q3_dangle.measure_id) == (ElementStatus.NOT_APPLICABLE, "foparq:found-rate")
+    assert (q3_dangle.status, q3_dangle.measure_id) == (ElementStatus.REPORTED, "foparq:found-rate")
     assert (parameter(q3_dangle, "measure-23"), parameter(q3_dangle, "measure-24")) == (38.0, 26.0)
     assert (q3_gap.status, messages(q3_gap)) == (ElementStatus.NOT_ASSESSED, ["checks.nothing"])
     assert report.verdict is Verdict.ACCEPTED

@@ -42,7 +42,7 @@ def of(element: Element) -> Residuals:
 
 
 def diagnoses(report: QualityReport) -> list[str]:
-    return [reason.message for reason in report.why if reason.message.startswith("diagnosis.")]
+    return [reason.message for reason in report.remarks if reason.message.startswith("diagnosis.")]
 
 
 def test_every_difference_is_told_worst_first() -> None:
@@ -78,13 +78,13 @@ def test_one_wrong_point_is_never_a_shift_or_a_rotation(row: int, axis: int) -> 
     wrong[row, axis] += 62 * MM
     report = judge(Q1, delivery=surveyed(facade(wrong)))
     assert diagnoses(report) == ["diagnosis.outliers"]
-    assert dict(report.why[-1].fields)["ids"] == [f"P{row}"]
+    assert dict(report.remarks[0].fields)["ids"] == [f"P{row}"]
 
 
 def test_a_shift_is_told_and_nothing_else() -> None:
     report = judge(Q1, delivery=surveyed(facade(NOISES + np.array([0.0, 0.0, 40 * MM]))))
     assert diagnoses(report) == ["diagnosis.shift"]
-    told = dict(report.why[-1].fields)
+    told = dict(report.remarks[0].fields)
     assert told["axes"] == ["Z"]
     assert told["means"] == [(pytest.approx(40 * MM + NOISES[:, 2].mean(), abs=1e-9), "m")]
 
@@ -95,14 +95,14 @@ def test_a_rotation_of_the_whole_is_told(axis: int) -> None:
     turned = Rotation.from_rotvec(np.eye(3)[axis] * 6e-3).apply(FACADE - centre) + centre
     report = judge(Q1, delivery=surveyed(facade(turned - FACADE + NOISES)))
     assert diagnoses(report) == ["diagnosis.rotation"]
-    assert dict(report.why[-1].fields)["size"].startswith("0.3")
+    assert dict(report.remarks[0].fields)["size"].startswith("0.3")
 
 
 def test_another_scale_of_the_whole_is_told() -> None:
     scaled = (FACADE - FACADE.mean(axis=0)) * 0.006
     report = judge(Q1, delivery=surveyed(facade(scaled + NOISES)))
     assert diagnoses(report) == ["diagnosis.scale"]
-    assert dict(report.why[-1].fields)["size"][0] == pytest.approx(0.006, rel=0.1)
+    assert dict(report.remarks[0].fields)["size"][0] == pytest.approx(0.006, rel=0.1)
 
 
 def test_scatter_without_a_cause_gets_no_diagnosis() -> None:

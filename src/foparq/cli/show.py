@@ -78,6 +78,10 @@ def _text(record: AuditRecord, say: Words, written: Sequence[Path]) -> None:
     above = record.loose and record.quality.verdict is not Verdict.UNDECIDED
     for reason in record.quality.why[1 if above else 0 :]:
         click.echo(f"  - {reason_sentence(say, reason)}")
+    if record.quality.remarks:
+        click.echo(say("cli.remarks"))
+    for reason in record.quality.remarks:
+        click.echo(f"  - {reason_sentence(say, reason)}")
     if not record.loose:
         click.echo()
         for element in record.quality.elements:
@@ -119,12 +123,12 @@ def _terms(record: AuditRecord, say: Words) -> str:
 def _element(element: Element, say: Words) -> None:
     value = "–" if element.value is None else _size(say, element.value, element.unit)
     limit = "" if element.limit is None else f"{element.comparison} {_size(say, element.limit, element.unit)}"
-    status = say(f"cli.status.{'reported' if element.only_reported else element.status.value}")
+    status = say(f"cli.status.{element.status.value}")
     title = element_title(say, element)
     name = f"{element.id:<11}{title}"
     click.echo(f"{name[:62]:<62} {value:>12} {limit:>13}  {status}")
     for reason in element.why:
-        if element.status.value not in {"pass", "not-applicable"}:
+        if element.status.value not in {"pass", "not-applicable", "reported"}:
             click.echo(f"           {reason_sentence(say, reason)}")
 
 

@@ -13,6 +13,7 @@ class ElementStatus(StrEnum):
     UNDECIDED = "undecided"
     NOT_APPLICABLE = "not-applicable"
     NOT_ASSESSED = "not-assessed"
+    REPORTED = "reported"  #: a value without a limit: there is nothing to meet
 
 
 class Verdict(StrEnum):
@@ -108,11 +109,6 @@ class Element:
     details: tuple[tuple[str, float, float], ...] = ()  #: per class or rule: name, found, out of
     residuals: Residuals | None = None  #: of an element of measured differences
 
-    @property
-    def only_reported(self) -> bool:
-        """Whether a value stands without a limit: there is nothing to meet."""
-        return self.value is not None and self.limit is None and not self.required
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class QualityReport:
@@ -123,8 +119,9 @@ class QualityReport:
     """
 
     verdict: Verdict
-    why: tuple[Reason, ...]
+    why: tuple[Reason, ...]  #: what decides
     elements: tuple[Element, ...]
+    remarks: tuple[Reason, ...] = ()  #: what is to be said beside it
     refused: bool = False  #: a file that was named could not be read
     terms: Reason | None = None  #: whose specification and scale it rests on; then it is the first of the reasons
 

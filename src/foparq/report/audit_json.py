@@ -45,6 +45,7 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         "verdict": None if record.loose else record.quality.verdict.value,
         "conclusion": _CONCLUSIONS[record.quality.verdict],
         "why": [_reason(words, reason) for reason in record.quality.why],
+        "remarks": [_reason(words, reason) for reason in record.quality.remarks],
         "profile": {
             "name": record.profile,
             "sha256": record.profile_sha256,

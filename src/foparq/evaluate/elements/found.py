@@ -25,7 +25,7 @@ def found_rate(spec: FoundRateSpec, evidence: Evidence) -> tuple[Element, ...]:
     Measures 4, 11, 19, 23, 24 and 26 of ISO 19157 are counts: they name the result only where it is one, for a single
     rule and a limit in items. Beside a rate they stand among the parameters.
 
-    Without a limit the result is a number and no verdict: not applicable, or undecided where the profile requires it.
+    Without a limit the result is a number and no verdict: reported, or undecided where the profile requires it.
 
     Returns
     -------
@@ -46,7 +46,7 @@ def found_rate(spec: FoundRateSpec, evidence: Evidence) -> tuple[Element, ...]:
             "found.reported", element=spec.id, found=found.found, checked=found.checked, value=(rate, "1")
         )
         doubts = (*broken_reasons(found, spec.id), *unseen(evidence, spec.id))
-        status = ElementStatus.UNDECIDED if spec.required else ElementStatus.NOT_APPLICABLE
+        status = ElementStatus.UNDECIDED if spec.required else ElementStatus.REPORTED
         judgement = judged(status, *((no_limit,) if spec.required and no_limit else ()), reported, *doubts)
     else:
         judgement = judged(ElementStatus.UNDECIDED, *filter(None, [no_limit]))
