@@ -260,7 +260,7 @@ def test_a_required_rate_without_a_limit_is_undecided() -> None:
 def test_a_rate_that_nobody_requires_needs_no_limit() -> None:
     optional = spec("found-rate", rules=("gap",), required=False)
     element = one(optional, delivery=HERE, outcomes=[outcome("gap", [1], checked=10)])
-    assert (element.status, messages(element)) == (ElementStatus.NOT_APPLICABLE, ["found.reported"])
+    assert (element.status, messages(element)) == (ElementStatus.REPORTED, ["found.reported"])
     assert (element.value, element.n, element.limit) == (0.1, 10, None)
 
 

@@ -12,8 +12,8 @@ from foparq.accuracy.student import student_test
 from foparq.columns import Coordinates, Flags, Reals
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
-from foparq.evaluate.tied import AXES, tied_points
-from foparq.profile.elements import AbsoluteSpec, TrendSpec
+from foparq.evaluate.tied import tied_points
+from foparq.profile.elements import AXES, AbsoluteSpec, TrendSpec
 from foparq.profile.schema import Profile
 
 _FEWEST = 3  #: two differences have one degree of freedom

@@ -14,8 +14,9 @@ from foparq.accuracy.outliers import most_outliers, outliers
 from foparq.columns import Reals, Texts
 from foparq.evaluate.evidence import Evidence, Judgement, judged
 from foparq.evaluate.quality import ElementStatus, Reason, Residual, Residuals, Standing, because
-from foparq.evaluate.tied import AXES, Tied
+from foparq.evaluate.tied import Tied
 from foparq.model.tables import Checkpoints, Distances
+from foparq.profile.elements import AXES
 
 _NAMED = 10  #: outliers that a reason names
 

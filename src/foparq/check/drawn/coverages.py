@@ -35,7 +35,8 @@ def undeclared_coverages(columns: Columns, *, coincide: float) -> tuple[str, ...
     O(s log s) in the segments of closed lines.
     """
     lines = np.flatnonzero((columns.role == Role.LINE) & ~columns.bounding)
-    lines = lines[np.isfinite(shapely.length(columns.geometry[lines]))]  # no number, no length
+    with np.errstate(invalid="ignore", over="ignore"):  # coordinates may be anything
+        lines = lines[np.isfinite(shapely.length(columns.geometry[lines]))]
     closed = lines[shapely.is_ring(columns.geometry[lines])]
     names = columns.layer[closed].astype(str)
     layers, number = np.unique(names, return_inverse=True)
