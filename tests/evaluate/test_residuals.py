@@ -61,14 +61,23 @@ def test_one_wrong_point_is_named_with_size_and_place() -> None:
     report = judge(Q1, Q6, delivery=surveyed(facade(wrong)))
     z = report.elements[2]
     assert z.status is ElementStatus.FAIL
-    told = dict(z.why[0].fields)["worst"]
-    assert told[0] == "P5"
-    assert told[1] == (pytest.approx(-71.3 * MM), "m")
-    assert told[2] == "drawing item layer"
+    (told,) = dict(z.why[0].fields)["worst"]
+    assert dict(told.fields) == {
+        "id": "P5", "difference": (pytest.approx(-71.3 * MM), "m"), "place": "drawing item layer",
+    }  # fmt: skip
     assert of(z).outliers == ("P5",)
     assert of(z).rest == pytest.approx(np.sqrt(np.mean(np.delete(wrong[:, 2], 5) ** 2)), rel=1e-6)
     assert of(z).rmse == z.value
     assert diagnoses(report) == ["diagnosis.outliers"]
+
+
+def test_two_wrong_points_are_both_named() -> None:
+    wrong = NOISES.copy()
+    wrong[[1, 6], 0] = 66 * MM, -58 * MM
+    report = judge(Q1, delivery=surveyed(facade(wrong)))
+    told = [dict(one.fields)["id"] for one in dict(report.why[0].fields)["worst"]]
+    assert told == ["P1", "P6"]
+    assert dict(report.remarks[0].fields)["ids"] == told
 
 
 @pytest.mark.parametrize("row", range(8))

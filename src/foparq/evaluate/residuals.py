@@ -19,6 +19,7 @@ from foparq.model.tables import Checkpoints, Distances
 from foparq.profile.elements import AXES
 
 _NAMED = 10  #: outliers that a reason names
+_WORST = 3  #: of them that it names with size and place
 
 
 def point_residuals(points: Checkpoints, tied: Tied, evidence: Evidence, axis: int, confidence: float) -> Residuals:
@@ -99,18 +100,23 @@ def _number(value: float) -> float | None:
 
 
 def naming_worst(judgement: Judgement, residuals: Residuals, name: str, limit: float | None) -> Judgement:
-    """Judgement whose failure names the worst difference with its place, and whose remarks name the outliers.
+    """Judgement whose failure names the outliers, else the worst difference, with size and place.
 
     Outliers count all the same: whether they may be left out is for people to say.
     """
     remark = _outlying(residuals, name, limit)
     first, *rest = judgement.why
-    worst = next((row for row in residuals.rows if row.standing is Standing.COUNTED), None)
-    if judgement.status is ElementStatus.FAIL and worst is not None:
-        place = " ".join(filter(None, [worst.drawing, worst.item, worst.layer, worst.ends]))
-        told = [worst.id, (worst.difference or 0.0, "m"), *([place] if place else [])]
-        first = replace(first, fields=(*first.fields, ("worst", told)))
+    counted = [row for row in residuals.rows if row.standing is Standing.COUNTED]
+    if judgement.status is ElementStatus.FAIL and counted:
+        worst = [row for row in counted if row.outlier][:_WORST] or counted[:1]
+        first = replace(first, fields=(*first.fields, ("worst", tuple(_placed(row) for row in worst))))
     return judged(judgement.status, first, *remark, *rest)
+
+
+def _placed(row: Residual) -> Reason:
+    fields = {"id": row.id, "difference": (row.difference or 0.0, "m")}
+    place = " ".join(filter(None, [row.drawing, row.item, row.layer, row.ends]))
+    return because("residuals.placed", place=place, **fields) if place else because("residuals.placeless", **fields)
 
 
 def _outlying(residuals: Residuals, name: str, limit: float | None) -> tuple[Reason, ...]:
