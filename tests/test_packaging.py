@@ -67,7 +67,7 @@ def test_the_wheel_audits_a_delivery_and_reports_in_both_languages(
     shutil.copytree(
         repository / "fixtures/deliveries/station-a", tmp_path / "station", ignore=shutil.ignore_patterns("audit")
     )
-    for language, verdict in (("en", "accepted"), ("pt-BR", "aceita")):
+    for language, verdict in (("en", "conforms"), ("pt-BR", "conforme")):
         told = run(installed / "foparq", "--lang", language, "audit", "station", cwd=tmp_path)
         assert verdict in told.lower()
         written = {path.name for path in (tmp_path / "station" / "audit").iterdir()}

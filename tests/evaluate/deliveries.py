@@ -64,7 +64,11 @@ def judge(
     report = evaluated.quality
     for language in ("en", "pt-BR"):
         words = Words(language)
-        for reason in (*report.why, *(reason for element in report.elements for reason in element.why)):
+        for reason in (
+            *report.why,
+            *report.remarks,
+            *(reason for element in report.elements for reason in element.why),
+        ):
             assert "{" not in reason_sentence(words, reason)
         for element in report.elements:
             assert words.find(f"evaluate.measure.{element.measure_id}")

@@ -42,7 +42,7 @@ def test_the_station_before_correction() -> None:
     assert (q3_overlap.value, q3_overlap.n) == (2 / 976, 976)
     assert (q3_dangle.value, q3_dangle.n) == (64 / 976, 976)
     assert f"{q3_overlap.value:.1%} {q3_dangle.value:.1%}" == "0.2% 6.6%"
-    assert (q3_dangle.status, q3_dangle.measure_id) == (ElementStatus.NOT_APPLICABLE, "foparq:found-rate")
+    assert (q3_dangle.status, q3_dangle.measure_id) == (ElementStatus.REPORTED, "foparq:found-rate")
     assert (parameter(q3_dangle, "measure-23"), parameter(q3_dangle, "measure-24")) == (38.0, 26.0)
     assert (q3_gap.status, messages(q3_gap)) == (ElementStatus.NOT_ASSESSED, ["checks.nothing"])
     assert report.verdict is Verdict.ACCEPTED
@@ -260,7 +260,7 @@ def test_a_required_rate_without_a_limit_is_undecided() -> None:
 def test_a_rate_that_nobody_requires_needs_no_limit() -> None:
     optional = spec("found-rate", rules=("gap",), required=False)
     element = one(optional, delivery=HERE, outcomes=[outcome("gap", [1], checked=10)])
-    assert (element.status, messages(element)) == (ElementStatus.NOT_APPLICABLE, ["found.reported"])
+    assert (element.status, messages(element)) == (ElementStatus.REPORTED, ["found.reported"])
     assert (element.value, element.n, element.limit) == (0.1, 10, None)
 
 

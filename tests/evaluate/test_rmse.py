@@ -268,13 +268,15 @@ def test_large_coordinates_change_no_verdict() -> None:
         assert other.status is one_.status
 
 
-def test_good_distances_with_bad_positions_point_to_a_shift() -> None:
-    tables = surveyed(checkpoints(station_points() + 0.050), distances(rmse_of(2 * MM)))
-    report = judge(Q1, Q2, delivery=tables)
+def test_a_shift_of_all_points_is_told_with_its_size() -> None:
+    report = judge(Q1, Q2, delivery=surveyed(checkpoints(station_points() + 0.050), distances(rmse_of(2 * MM))))
     assert report.verdict is Verdict.REJECTED
-    assert [reason.message for reason in report.why] == ["absolute.fail"] * 3 + ["verdict.shift"]
-    bad = judge(Q1, Q2, delivery=surveyed(checkpoints(station_points() + 0.050), distances(rmse_of(20 * MM))))
-    assert "verdict.shift" not in [reason.message for reason in bad.why]
+    assert [reason.message for reason in report.why] == ["absolute.fail"] * 3
+    assert report.remarks[0].message == "diagnosis.shift"
+    told = dict(report.remarks[0].fields)
+    assert told["axes"] == ["X", "Y", "Z"]
+    means = np.array([mean for mean, _ in told["means"]])
+    assert means == pytest.approx(0.050 + station_points().mean(axis=0), abs=1e-9)
 
 
 def test_no_drawing_is_needed_for_points() -> None:

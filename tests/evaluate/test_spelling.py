@@ -77,7 +77,7 @@ def test_an_acceptance_names_what_nobody_sees() -> None:
         outcomes=[outcome("gap", checked=4)],
     )  # fmt: skip
     assert report.verdict is Verdict.ACCEPTED
-    hidden = next(reason for reason in report.why if reason.message == "verdict.hidden")
+    hidden = next(reason for reason in report.remarks if reason.message == "verdict.hidden")
     assert dict(hidden.fields) == {"n": 2, "layers": ["B"]}
     plain = judge(
         spec("faulty-rate", rules=("gap",)), delivery=drawn(drawing(n=4)), outcomes=[outcome("gap", checked=4)]

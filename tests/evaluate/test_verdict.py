@@ -60,8 +60,9 @@ def test_what_is_not_required_decides_nothing() -> None:
     optional = [rate("bad", "b", required=False), rate("open", "c", required=False)]
     report = judge(GOOD, *optional, delivery=HERE, outcomes=OUTCOMES[:2])
     assert report.verdict is Verdict.ACCEPTED
-    assert [reason.message for reason in report.why] == ["verdict.accepted", "verdict.not-required"]
-    assert dict(report.why[1].fields)["elements"] == ["bad", "open"]
+    assert [reason.message for reason in report.why] == ["verdict.accepted"]
+    assert [reason.message for reason in report.remarks] == ["verdict.not-required"]
+    assert dict(report.remarks[0].fields)["elements"] == ["bad"], "nothing is said of what was not evaluated"
 
 
 def test_nothing_required_is_never_accepted() -> None:
@@ -90,10 +91,14 @@ def test_a_crash_anywhere_leaves_it_open() -> None:
     assert verdict(GOOD, BAD, crashed=True) is Verdict.REJECTED
 
 
-def test_the_decisive_reasons_come_first_and_equal_ones_are_told_once() -> None:
+def test_only_what_decides_is_decisive_and_equal_reasons_are_told_once() -> None:
     report = judge(OPEN, BAD, spec("absolute", id="Q1"), delivery=HERE, outcomes=OUTCOMES)
-    assert [reason.message for reason in report.why] == ["faulty.fail", "checks.unit-unknown", "absolute.none"]
-    assert dict(report.why[2].fields)["element"] == ["Q1-X", "Q1-Y", "Q1-Z"]
+    assert [reason.message for reason in report.why] == ["faulty.fail"]
+    assert [reason.message for reason in report.remarks] == ["checks.unit-unknown", "absolute.none"]
+    assert dict(report.remarks[1].fields)["element"] == ["Q1-X", "Q1-Y", "Q1-Z"]
+    without = judge(OPEN, spec("absolute", id="Q1"), delivery=HERE, outcomes=OUTCOMES)
+    assert [reason.message for reason in without.why] == ["checks.unit-unknown", "absolute.none"]
+    assert without.remarks == ()
 
 
 # --- the shipped profiles --------------------------------------------------------------------------------------------

@@ -109,6 +109,10 @@ LOOSER = {
     "coarse chords": (
         READING.format("1 m", "explode", "leave"), Point.VALUE, "reading.sagitta", (1.0, "m"), (0.00005, "m"),
     ),
+    "smaller features count": (
+        READING.format("0.05 mm", "explode", "leave") + 'visible = "1 mm"\n', Point.VALUE, "reading.visible",
+        (0.001, "m"), (0.01, "m"),
+    ),
     "a wider gap": ('[completeness]\ngap = "1 m"\n', Point.VALUE, "completeness.gap", (1.0, "m"), (0.01, "m")),
     "a narrower gap": ('[completeness]\ngap = "1 mm"\n', Point.VALUE, "completeness.gap", (0.001, "m"), (0.01, "m")),
     "fewer findings written": ("[limits]\nwritten = 1\n", Point.VALUE, "limits.written", 1, 100_000),

@@ -9,7 +9,16 @@ import numpy as np
 import pytest
 from lxml import etree
 
-from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Verdict, because
+from foparq.evaluate.quality import (
+    Element,
+    ElementStatus,
+    QualityReport,
+    Residual,
+    Residuals,
+    Standing,
+    Verdict,
+    because,
+)
 from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import no_findings
 from foparq.model.delivery import Delivery
@@ -148,7 +157,8 @@ def test_only_pass_and_fail_are_conformance_results() -> None:
         known = {ElementStatus.PASS: ["true"], ElementStatus.FAIL: ["false"]}
         assert passes == known.get(part.status, [])
         statements = node.xpath("mdq:result/mdq:DQ_DescriptiveResult", namespaces=NAMESPACES)
-        assert len(statements) == (0 if part.status in known else 1)
+        run = bool(part.parameters or part.details)
+        assert len(statements) == (0 if part.status in known else 1) + run
 
 
 def test_values_keep_all_their_digits_and_their_unit() -> None:
@@ -173,13 +183,44 @@ def test_measures_carry_id_code_space_names_and_parameters() -> None:
     assert (spaces[0], spaces[3]) == ("ISO 19157", "foparq")
     names = nodes[0].xpath(".//mdq:nameOfMeasure/*/text()", namespaces=NAMESPACES)
     assert names[0] == "root mean square error"
-    description = nodes[0].xpath("string(.//mdq:measureDescription/*)", namespaces=NAMESPACES)
-    assert "média: 2,1 mm" in description
-    assert "95 %" in description
-    topology = nodes[4].xpath("string(.//mdq:measureDescription/*)", namespaces=NAMESPACES)
-    assert "undershoot: 1 / 4" in topology
-    assert "500,0 µm" in topology or "0,5 mm" in topology
-    assert "10 mm" in topology
+    assert not nodes[0].xpath(".//mdq:measureDescription", namespaces=NAMESPACES), "it would describe the run"
+    run = nodes[0].xpath("string(mdq:result[last()]//mdq:statement/*)", namespaces=NAMESPACES)
+    assert "média: 2,1 mm" in run
+    assert "95 %" in run
+    counts = nodes[4].xpath("string(mdq:result[last()]//mdq:statement/*)", namespaces=NAMESPACES)
+    assert "undershoot: 1 / 4" in counts
+    method = nodes[4].xpath("string(.//mdq:evaluationMethodDescription/*)", namespaces=NAMESPACES)
+    assert "500,0 µm" in method or "0,5 mm" in method
+    assert "10 mm" in method
+
+
+def test_a_sample_is_no_full_inspection() -> None:
+    nodes = reports(quality_xml(record(one_of_each())))
+    methods = [node.xpath("local-name(mdq:evaluationMethod/*)", namespaces=NAMESPACES) for node in nodes]
+    sample, full = "DQ_SampleBasedInspection", "DQ_FullInspection"
+    # Q1-Z was not assessed: nothing was inspected.
+    assert methods[:8] == [sample, sample, "", sample, full, full, full, full]
+    assert methods[8] == sample
+    ratio = nodes[0].xpath("string(.//mdq:samplingRatio/*)", namespaces=NAMESPACES)
+    assert ratio.startswith("7 ")
+
+
+def test_the_report_names_its_maker_and_what_lies_beside_it() -> None:
+    document = quality_xml(record(one_of_each(), versions={"foparq": "0.1.0"}, crashed=("report.html",)))
+    assert find(document, "//mdq:reportReference//cit:CI_Organisation/cit:name/*/text()") == ["foparq 0.1.0"]
+    links = find(document, "//mdq:reportReference//cit:linkage/*/text()")
+    assert links == ["findings.gpkg", "findings.jsonl", "audit.json"]
+
+
+def test_single_differences_are_listed_worst_first() -> None:
+    rows = tuple(
+        Residual(id=id_, difference=found, normalised=0.1, expected=0.1, standing=Standing.COUNTED, outlier=id_ == "P6")
+        for id_, found in (("P6", -0.0713), ("P1", 0.0021))
+    )
+    residuals = Residuals(axis="Z", rows=rows, significance=0.05, most=1, n=2, rmse=0.05, rest=0.0021)
+    (node, _) = reports(quality_xml(record((element("Q1-Z", residuals=residuals),))))
+    run = node.xpath("string(mdq:result[last()]//mdq:statement/*)", namespaces=NAMESPACES)
+    assert run.index("P6: -71,3 mm (conta; destoa dos demais)") < run.index("P1: 2,1 mm (conta)")
 
 
 def test_a_conformance_result_cites_the_specification_and_explains_itself() -> None:

@@ -151,9 +151,9 @@ def test_the_language_of_the_record_comes_first(rejected: AuditRecord, language:
 @pytest.mark.parametrize(
     ("verdict", "portuguese", "english"),
     [
-        (Verdict.ACCEPTED, "A entrega foi aceita.", "The delivery is accepted."),
-        (Verdict.REJECTED, "A entrega foi rejeitada.", "The delivery is rejected."),
-        (Verdict.UNDECIDED, "Ainda não é possível aceitar nem rejeitar", "can be neither accepted nor rejected yet"),
+        (Verdict.ACCEPTED, "Entrega conforme em relação a ET/DOC", "The delivery conforms to ET/DOC"),
+        (Verdict.REJECTED, "Entrega não conforme em relação a ET/DOC", "The delivery does not conform to ET/DOC"),
+        (Verdict.UNDECIDED, "inconclusiva em relação a ET/DOC", "inconclusive with respect to ET/DOC"),
     ],
 )
 def test_the_verdict_is_a_sentence(rejected: AuditRecord, verdict: Verdict, portuguese: str, english: str) -> None:
@@ -173,7 +173,7 @@ def test_loose_files_have_a_count_and_no_verdict(rejected: AuditRecord) -> None:
     faults = int(np.sum(rejected.findings.severity != "note"))
     text = read(loose(rejected, rejected.findings)).words("pt-BR")
     assert f"Foram encontradas {faults} falhas." in text
-    assert "rejeitada." not in text
+    assert "em relação a" not in text
     assert "Elementos de qualidade" not in text
     assert "Nenhuma falha foi encontrada" in read(loose(rejected, join_findings([]))).words("pt-BR")
     idle = tuple(

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from foparq.accuracy.moments import moments
+from foparq.columns import Reals
 
 _LARGE = 10.0  #: the fitted p is below 4e-24 here, and its polynomial turns upward far beyond
 
@@ -82,3 +83,21 @@ def normal_tail(a2_star: float) -> float:
     if a < 0.6:  # noqa: PLR2004
         return math.exp(0.9177 - 4.279 * a - 1.38 * a * a)
     return math.exp(1.2937 - 5.709 * a + 0.0186 * a * a)
+
+
+def normal_scores(n: int) -> Reals:
+    """Values (n,) that a standard normal sample of n is expected to have, in order.
+
+    Notes
+    -----
+    Blom 1958: the normal quantiles of ``(i - 3/8) / (n + 1/4)``.
+
+    Examples
+    --------
+    >>> normal_scores(3).round(3)
+    array([-0.869,  0.   ,  0.869])
+    """
+    from scipy.special import ndtri  # noqa: PLC0415 - slow to load; a check of loose files needs none
+
+    scores: Reals = ndtri((np.arange(1, n + 1) - 0.375) / (n + 0.25))
+    return scores

@@ -122,7 +122,7 @@ def results_of(part: Part, profile: Profile, scale: float | None, done: Sequence
             outcome = _before(call.rule, call.spec, part, call.scope(part.path))
             outcome = replace(outcome, about_file=subject.states(rule.subject))
             yield Begun(n, outcome)
-            result = _run(n, call, outcome, subject, outcomes, rules)
+            result = _run(n, call, outcome, subject, outcomes, rules, profile.least_seen(scale))
             outcomes.append(result.outcome)
             yield result
 
@@ -179,11 +179,12 @@ def _rest(part: Part, profile: Profile, done: Sequence[Result], broken: Broken) 
 
 
 def _run(
-    number: int, call: Call, outcome: Outcome, subject: Subject, outcomes: Sequence[Outcome], rules: Mapping[str, Rule]
-) -> Result:
+    number: int, call: Call, outcome: Outcome, subject: Subject, outcomes: Sequence[Outcome],
+    rules: Mapping[str, Rule], visible: float,
+) -> Result:  # fmt: skip
     start = time.process_time()
     try:
-        outcome, table = _looked(call, outcome, subject, outcomes, rules)
+        outcome, table = _looked(call, outcome, subject, outcomes, rules, visible)
         trace = ""
     except MemoryError:
         outcome, table, trace = _broken(outcome, Broken(Because.LIMIT)), None, ""
@@ -194,14 +195,17 @@ def _run(
 
 
 def _looked(
-    call: Call, outcome: Outcome, subject: Subject, outcomes: Sequence[Outcome], rules: Mapping[str, Rule]
-) -> tuple[Outcome, Findings | None]:
+    call: Call, outcome: Outcome, subject: Subject, outcomes: Sequence[Outcome], rules: Mapping[str, Rule],
+    visible: float,
+) -> tuple[Outcome, Findings | None]:  # fmt: skip
     """What the rule finds, or why it cannot look."""
     if call.rule.metric and (doubt := subject.doubt(outcomes)).because is not Because.RAN:
         return replace(outcome, because=doubt.because, names=doubt.names), None
-    outcome = replace(outcome, parameters=call.parameters)
+    undeclared = subject.undeclared(call.rule.subject, visible)
+    outcome = replace(outcome, parameters=call.parameters, undeclared=undeclared)
     seen = judged(call, rules, outcomes, subject)
-    outcome = replace(outcome, unjudged=seen.unjudged, aside=seen.named)
+    small = subject.too_small(np.union1d(seen.inputs[0].row, seen.unjudged), visible)
+    outcome = replace(outcome, unjudged=seen.unjudged, aside=seen.named, small=small)
     empty = not any(len(rows) for rows in seen.inputs) and not subject.examined(call.rule.subject)
     if empty and not len(seen.unjudged):
         return replace(outcome, because=Because.NOTHING), None

@@ -118,6 +118,14 @@ class Subject(ABC):
     def counted(self, rows: Index, faulty: Index) -> int:
         """Features among the judged rows of the part's items: the denominator of rates."""
 
+    def too_small(self, rows: Index, visible: float) -> Index:  # noqa: ARG002 - kinds of parts that know sizes use it
+        """Those of the rows of the part's items that are smaller than what can be seen, metres."""
+        return rows[:0]
+
+    def undeclared(self, kind: type, visible: float) -> tuple[str, ...]:  # noqa: ARG002 - kinds that know such use it
+        """Patterns of layers that look like such an input and are not declared as one."""
+        return ()
+
     @abstractmethod
     def named(self, rows: Index) -> tuple[Texts, Texts]:
         """Item ids and layers of rows of the part's items."""

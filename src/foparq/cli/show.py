@@ -16,6 +16,7 @@ from foparq.model.delivery import LOST, SourceStatus
 from foparq.report.files import text_of
 from foparq.report.formats import format_named
 from foparq.report.record import AuditRecord
+from foparq.report.residuals import standing_words, tied_words
 from foparq.report.rows import finding_rows
 from foparq.report.sentences import (
     aside_sentence,
@@ -77,10 +78,15 @@ def _text(record: AuditRecord, say: Words, written: Sequence[Path]) -> None:
     above = record.loose and record.quality.verdict is not Verdict.UNDECIDED
     for reason in record.quality.why[1 if above else 0 :]:
         click.echo(f"  - {reason_sentence(say, reason)}")
+    if record.quality.remarks:
+        click.echo(say("cli.remarks"))
+    for reason in record.quality.remarks:
+        click.echo(f"  - {reason_sentence(say, reason)}")
     if not record.loose:
         click.echo()
         for element in record.quality.elements:
             _element(element, say)
+        _worst(record, say)
     _findings(record, say)
     _not_checked(record, say)
     if written:
@@ -117,13 +123,26 @@ def _terms(record: AuditRecord, say: Words) -> str:
 def _element(element: Element, say: Words) -> None:
     value = "–" if element.value is None else _size(say, element.value, element.unit)
     limit = "" if element.limit is None else f"{element.comparison} {_size(say, element.limit, element.unit)}"
-    status = say(f"cli.status.{'reported' if element.only_reported else element.status.value}")
+    status = say(f"cli.status.{element.status.value}")
     title = element_title(say, element)
     name = f"{element.id:<11}{title}"
     click.echo(f"{name[:62]:<62} {value:>12} {limit:>13}  {status}")
     for reason in element.why:
-        if element.status.value not in {"pass", "not-applicable"}:
+        if element.status.value not in {"pass", "not-applicable", "reported"}:
             click.echo(f"           {reason_sentence(say, reason)}")
+
+
+def _worst(record: AuditRecord, say: Words) -> None:
+    if (worst := record.quality.worst) is None:
+        return
+    element, row = worst
+    click.echo()
+    click.echo(
+        say(
+            "cli.worst", element=element.id, id=row.id, difference=(row.difference, "m"), tied=tied_words(say, row),
+            standing=standing_words(say, row),
+        )
+    )  # fmt: skip
 
 
 def _findings(record: AuditRecord, say: Words) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 from foparq.evaluate.measures import measures
-from foparq.evaluate.quality import Element, ElementStatus, Reason, because
+from foparq.evaluate.quality import Element, ElementStatus, Reason, Residuals, because
 from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.outcome import Outcome
@@ -70,7 +70,7 @@ def element(
     spec: ElementSpec, measure: str, judgement: Judgement, *, id: str | None = None, scope: str, n: int = 0,  # noqa: A002
     value: float | None = None, limit: float | None = None, comparison: str, unit: str | None = None,
     parameters: Iterable[tuple[str, float, str]] = (), method: str, details: tuple[tuple[str, float, float], ...] = (),
-    kind: str | None = None,
+    kind: str | None = None, residuals: Residuals | None = None,
 ) -> Element:  # fmt: skip
     """Element of a measure of the catalogue.
 
@@ -80,7 +80,7 @@ def element(
         Id in the catalogue.
     id : str, optional
         Id of this result where the profile's element gives several.
-    scope, n, value, limit, comparison, parameters, method, details
+    scope, n, value, limit, comparison, parameters, method, details, residuals
         As in :class:`Element`. Numbers that are not finite are left out.
     unit, kind : str, optional
         Unit and data quality element, where they are not the measure's own.
@@ -91,6 +91,7 @@ def element(
         value=value if value is not None and _finite(value) else None, unit=entry.unit if unit is None else unit,
         limit=limit, comparison=comparison, n=n, status=judgement.status, required=spec.required, why=judgement.why,
         parameters=tuple(row for row in parameters if _finite(row[1])), method=method, details=details,
+        residuals=residuals,
     )  # fmt: skip
 
 

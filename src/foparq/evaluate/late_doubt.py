@@ -19,4 +19,6 @@ def without_reports(quality: QualityReport, reports: Sequence[str]) -> QualityRe
     if quality.verdict is Verdict.ACCEPTED:
         first = (quality.terms,) if quality.terms else ()
         return replace(quality, verdict=Verdict.UNDECIDED, why=(*first, reason))
+    if quality.verdict is Verdict.REJECTED:
+        return replace(quality, remarks=(*quality.remarks, reason))
     return replace(quality, why=(*quality.why, reason))

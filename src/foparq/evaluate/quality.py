@@ -13,6 +13,7 @@ class ElementStatus(StrEnum):
     UNDECIDED = "undecided"
     NOT_APPLICABLE = "not-applicable"
     NOT_ASSESSED = "not-assessed"
+    REPORTED = "reported"  #: a value without a limit: there is nothing to meet
 
 
 class Verdict(StrEnum):
@@ -40,6 +41,52 @@ def because(message: str, **fields: object) -> Reason:
     return Reason(message=message, fields=tuple(fields.items()))
 
 
+class Standing(StrEnum):
+    """Whether a difference counts; each is an id in the ``report`` catalogue under ``standing.``."""
+
+    COUNTED = "counted"
+    REPEATED = "repeated"  #: another row stands for the same place or measurement, with a larger difference
+    MISSING = "missing"  #: nothing was delivered to compare with
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Residual:
+    """One difference, delivered minus reference, metres."""
+
+    id: str  #: of the checkpoint or distance
+    difference: float | None  #: ``None`` where nothing was delivered
+    normalised: (
+        float | None
+    )  #: from the mean of those that count, in their standard deviations; ``None`` if it does not
+    expected: float | None  #: the same, as a normal sample of that size has it at this rank
+    standing: Standing
+    outlier: bool
+    lies: str = ""  #: value of :class:`foparq.findings.ties.Lies`, of a distance of ``Ends``; ``""`` if nobody looked
+    drawing: str = ""  #: path of the drawing it was tied to; ``""`` if to none
+    item: str = ""  #: item it lies on
+    layer: str = ""  #: layer of that item
+    ends: str = ""  #: of a distance: between which points, by name
+    place: tuple[float, float, float] | None = None  #: delivered coordinates, metres; ``None`` if it has none
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Residuals:
+    """Every difference of one element, and the test that tells outliers among them."""
+
+    axis: str  #: ``"X"``, ``"Y"`` or ``"Z"``; ``""`` of distances
+    rows: tuple[Residual, ...]  #: worst first
+    significance: float  #: of the test of outliers: generalised ESD
+    most: int  #: outliers that were looked for at the most
+    n: int  #: differences that count
+    rmse: float | None  #: of those that count
+    rest: float | None  #: RMSE of those that count without outliers
+
+    @property
+    def outliers(self) -> tuple[str, ...]:
+        """Ids of the outliers, worst first."""
+        return tuple(row.id for row in self.rows if row.outlier)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Element:
     """One quality element with its measure, value, limit and status."""
@@ -60,11 +107,7 @@ class Element:
     parameters: tuple[tuple[str, float, str], ...] = ()  #: name, value, unit: mean, sd, t, critical ...
     method: str = "directInternal"  #: ISO 19157 evaluation method type, or ``directExternal``
     details: tuple[tuple[str, float, float], ...] = ()  #: per class or rule: name, found, out of
-
-    @property
-    def only_reported(self) -> bool:
-        """Whether a value stands without a limit: there is nothing to meet."""
-        return self.value is not None and self.limit is None and not self.required
+    residuals: Residuals | None = None  #: of an element of measured differences
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,7 +119,24 @@ class QualityReport:
     """
 
     verdict: Verdict
-    why: tuple[Reason, ...]
+    why: tuple[Reason, ...]  #: what decides
     elements: tuple[Element, ...]
+    remarks: tuple[Reason, ...] = ()  #: what is to be said beside it
     refused: bool = False  #: a file that was named could not be read
     terms: Reason | None = None  #: whose specification and scale it rests on; then it is the first of the reasons
+
+    @property
+    def measured(self) -> tuple[tuple[Element, Residuals], ...]:
+        """Elements of measured differences, with these."""
+        return tuple((one, one.residuals) for one in self.elements if one.residuals is not None)
+
+    @property
+    def worst(self) -> tuple[Element, Residual] | None:
+        """The difference that is greatest against its limit; ``None`` if nothing was measured, or has no limit."""
+        rows = [
+            (abs(row.difference) / one.limit, one, row)
+            for one, residuals in self.measured
+            for row in residuals.rows
+            if one.limit and row.difference is not None and row.standing is Standing.COUNTED
+        ]
+        return max(rows, key=lambda row: row[0])[1:] if rows else None

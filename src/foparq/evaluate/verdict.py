@@ -3,8 +3,10 @@
 
 from collections.abc import Iterable, Sequence
 
+from foparq.evaluate.diagnosis import diagnosis
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
+from foparq.evaluate.remarks import deciding, remarks_on
 from foparq.evaluate.scale import scale_doubts
 from foparq.findings.outcome import Status
 from foparq.model.delivery import SourceStatus
@@ -17,7 +19,7 @@ _LOST = {SourceStatus.REFUSED: "verdict.refused", SourceStatus.MISSING: "verdict
 
 
 def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) -> QualityReport:
-    """Verdict over all elements, with its reasons, the decisive ones first.
+    """Verdict over all elements, with the reasons that decide and, apart from them, what is to be said beside them.
 
     Rejected: a required element fails. Else undecided: a required element is undecided or not assessed, a file that the
     manifest names could not be read, something crashed, or nothing is required. Else accepted.
@@ -25,39 +27,50 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     waived = {name for spec in profile.elements if not spec.applicable for name in results_of(spec.id)}
     required = [element for element in elements if element.required and element.id not in waived]
     failed = [element for element in required if element.status is ElementStatus.FAIL]
-    failing = _together(element.why[:1] for element in failed)
-    doubts = _together(element.why for element in required if element.status in _OPEN)
-    doubts += lost_files(evidence) + crashes(evidence)
+    opened = [element for element in required if element.status in _OPEN]
+    doubts = _together(deciding(element) for element in opened) + lost_files(evidence) + crashes(evidence)
     if not required:
         doubts.append(because("verdict.nothing-required"))
+    beside: list[Sequence[Reason]] = [remarks_on(element, deciding(element)) for element in opened]
+    beside.append(_confirmed(evidence))
     doubted, remarked = scale_doubts(profile, evidence)
     if doubted:
-        return _report(Verdict.UNDECIDED, (*doubted, *failing, *doubts), elements, evidence)
+        failing = _together(element.why[:1] for element in failed)
+        return _report(Verdict.UNDECIDED, (*doubted, *doubts), [failing, *beside], elements, evidence)
     if failed:
-        shift = [because("verdict.shift")] if _shifted(profile, elements) else []
-        return _report(Verdict.REJECTED, (*failing, *shift, *doubts), elements, evidence)
+        beside = [diagnosis(profile, evidence, elements), doubts, *(element.why[1:] for element in failed), *beside]
+        return _report(Verdict.REJECTED, _together(element.why[:1] for element in failed), beside, elements, evidence)
     if doubts:
-        return _report(Verdict.UNDECIDED, doubts, elements, evidence)
+        return _report(Verdict.UNDECIDED, doubts, beside, elements, evidence)
     why = [because("verdict.accepted", elements=[element.id for element in required])]
     why += _together(element.why[:1] for element in required if _tolerated(element))
-    others = [element.id for element in elements if element not in required]
-    if others:
-        why.append(because("verdict.not-required", elements=others))
-    remarks = remarked + _together(element.why[1:] for element in required) + _hidden(evidence)
-    remarks += [
-        because("verdict.confirmed", what=one.what, value=one.value, by=one.by, reason=one.reason)
-        for one in evidence.delivery.confirmed
-    ]
-    return _report(Verdict.ACCEPTED, (*why, *remarks), elements, evidence)
+    if others := [element.id for element in elements if element not in required and element.value is not None]:
+        beside.append((because("verdict.not-required", elements=others),))
+    beside += [remarked, *(element.why[1:] for element in required), _hidden(evidence)]
+    return _report(Verdict.ACCEPTED, why, beside, elements, evidence)
 
 
-def _report(verdict: Verdict, why: Sequence[Reason], elements: Sequence[Element], evidence: Evidence) -> QualityReport:
-    return QualityReport(verdict=verdict, why=tuple(why), elements=tuple(elements), refused=evidence.refused)
+def _report(
+    verdict: Verdict, why: Sequence[Reason], beside: Iterable[Sequence[Reason]], elements: Sequence[Element],
+    evidence: Evidence,
+) -> QualityReport:  # fmt: skip
+    return QualityReport(
+        verdict=verdict, why=tuple(why), remarks=tuple(_together(beside)), elements=tuple(elements),
+        refused=evidence.refused,
+    )  # fmt: skip
 
 
 def _tolerated(element: Element) -> bool:
     """Faults were found and the limit allows them: an acceptance must say so."""
     return element.unit == "1" and element.comparison == "<=" and bool(element.value)
+
+
+def _confirmed(evidence: Evidence) -> list[Reason]:
+    """What persons confirmed by name."""
+    return [
+        because("verdict.confirmed", what=one.what, value=one.value, by=one.by, reason=one.reason)
+        for one in evidence.delivery.confirmed
+    ]
 
 
 def _hidden(evidence: Evidence) -> list[Reason]:
@@ -93,16 +106,6 @@ def _naming(reason: Reason, names: list[str]) -> Reason:
         message=reason.message,
         fields=tuple((name, names if name == "element" else value) for name, value in reason.fields),
     )
-
-
-def _shifted(profile: Profile, elements: Sequence[Element]) -> bool:
-    """Good distances with bad positions point to a systematic shift or rotation."""
-
-    def statuses(kind: str) -> set[ElementStatus]:
-        ids = [spec.id for spec in profile.elements if spec.kind == kind]
-        return {element.status for element in elements if any(element.id in results_of(id_) for id_ in ids)}
-
-    return ElementStatus.FAIL in statuses("absolute") and statuses("relative") == {ElementStatus.PASS}
 
 
 def lost_files(evidence: Evidence) -> list[Reason]:

@@ -53,9 +53,13 @@ class Outcome:
     found: int  #: hits
     faulty: Index  #: rows of the part's items at fault, distinct
     unjudged: Index = field(default_factory=_nothing)  #: rows of the part's items that were set aside, distinct
+    small: Index = field(default_factory=_nothing)  #: rows of the part's items it concerns, too small to be seen
     aside: tuple[SetAside, ...] = ()  #: the first of them, those that the rule cannot work with before others
     because: Because = Because.RAN
     names: tuple[str, ...] = ()  #: what ``because`` speaks of: required rules
+    undeclared: tuple[
+        str, ...
+    ] = ()  #: patterns of layers that look like what the rule looks at and are not declared so
     parameters: tuple[tuple[str, float, str], ...] = ()  #: name, value, SI unit
     seconds: float = 0.0  #: of the processor
     about_file: bool = False  #: the rule looks at statements of the file, not at items

@@ -7,7 +7,7 @@ from enum import StrEnum
 import numpy as np
 import shapely
 
-from foparq.columns import Flags, Geometries, Reals, Texts
+from foparq.columns import Flags, Geometries, Index, Reals, Texts
 from foparq.model.items import Items, Role
 from foparq.model.part import Part
 from foparq.model.plane import Plane
@@ -217,8 +217,12 @@ class Drawing(Part):
     @property
     def features(self) -> int:
         """Items that rules may look at."""
-        items = self.items
-        return int(np.count_nonzero(~items.paper & np.isin(items.role, [Role.LINE, Role.AREA, Role.POINT])))
+        return len(self.rows)
+
+    @property
+    def rows(self) -> Index:
+        """Rows of these items."""
+        return np.flatnonzero(~self.items.paper & np.isin(self.items.role, [Role.LINE, Role.AREA, Role.POINT]))
 
     @property
     def vertices(self) -> int:
@@ -228,3 +232,12 @@ class Drawing(Part):
     def visible_rows(self) -> Flags:
         """(n,) true for what a person sees in model space."""
         return self.items.visible & ~self.items.paper
+
+    def extent(self, rows: Index) -> float:
+        """Length of the linework of some items in the plane, metres; what has no finite length adds nothing."""
+        chosen = self.items.geometry[rows]
+        coordinates = np.nan_to_num(shapely.get_coordinates(chosen, include_z=True))
+        with np.errstate(over="ignore", invalid="ignore"):  # coordinates may be anything
+            flat = self.plane.project(coordinates, self.unit.metres or 1.0)[:, :2]
+            lengths = shapely.length(shapely.set_coordinates(shapely.force_2d(chosen), flat))
+        return float(np.sum(lengths[np.isfinite(lengths)]))

@@ -4,6 +4,10 @@
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
+import numpy as np
+
+from foparq.columns import Index
+
 
 @dataclass(frozen=True, kw_only=True)
 class Part(ABC):
@@ -20,3 +24,12 @@ class Part(ABC):
     @abstractmethod
     def vertices(self) -> int:
         """Size of the part, for bounds of time."""
+
+    @property
+    def rows(self) -> Index:
+        """Rows of the features in their table."""
+        return np.arange(self.features)
+
+    def extent(self, rows: Index) -> float | None:  # noqa: ARG002 - kinds of parts that know sizes use it
+        """Size of some of its features together, in SI units; ``None`` if the kind has none."""
+        return None

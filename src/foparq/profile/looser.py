@@ -193,6 +193,8 @@ def _in_reading(own: Profile, other: Profile, scale: float) -> Iterator[Looser]:
         ("reading.sagitta", own.reading.sagitta, other.reading.sagitta, _LARGER),
         # What is hidden and sound thins out the rate of faults.
         ("reading.hidden", own.reading.hidden, other.reading.hidden, _DIFFERENT),
+        # Strokes that nobody sees thin it out as well; if nothing is large enough, nothing passes.
+        ("reading.visible", own.reading.visible, other.reading.visible, _SMALLER),
         ("limits.written", own.limits.written, other.limits.written, _SMALLER),
     ]
     if own.reading.blocks == "skip":

@@ -10,6 +10,7 @@ from pydantic import Field
 from foparq.findings.table import Severity
 from foparq.profile.elements import ElementSpec
 from foparq.profile.quantities import AnyQuantity, Length, ScaleText, Strict
+from foparq.units import Quantity
 
 
 class CheckSpec(Strict):
@@ -68,6 +69,7 @@ class ReadingSpec(Strict):
     sagitta: Length  #: greatest distance between a curve and the chords that replace it
     blocks: Literal["explode", "skip"] = "explode"  #: ``skip``: only top-level linework is checked
     hidden: Literal["leave", "check"] = "leave"  #: ``check``: off and frozen layers are looked at too
+    visible: Length = Quantity(0.2, "mm", at_scale=True)  #: what is smaller cannot be seen: it counts only if at fault
 
 
 _ENDS = ("undershoot", "overshoot", "free-end")  #: rules that ask whether an end lies on a curve
@@ -118,3 +120,8 @@ class Profile(Strict):
         """
         finest = [spec.tolerances["coincide"].si(scale) / 4 for spec in self.checks if spec.rule in _ENDS]
         return min([self.reading.sagitta.si(scale), *(length for length in finest if length > 0)])
+
+    def least_seen(self, scale: float | None) -> float:
+        """Size below which nothing can be seen on the sheet, metres; 0 if it depends on a scale that nobody states."""
+        visible = self.reading.visible
+        return 0.0 if visible.at_scale and scale is None else visible.si(scale)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from foparq import __version__
-from foparq.evaluate.quality import Element, Reason, Verdict
+from foparq.evaluate.quality import Element, Reason, Residuals, Verdict
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import Source
 from foparq.model.drawing import Repair
@@ -47,6 +47,7 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         "verdict": None if record.loose else record.quality.verdict.value,
         "conclusion": _CONCLUSIONS[record.quality.verdict],
         "why": [_reason(words, reason) for reason in record.quality.why],
+        "remarks": [_reason(words, reason) for reason in record.quality.remarks],
         "profile": {
             "name": record.profile,
             "sha256": record.profile_sha256,
@@ -59,6 +60,7 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         "scale": f"1:{record.scale:g}" if record.scale else None,
         "inputs": [_source(words, source, repairs.get(source.path, ())) for source in record.delivery.sources],
         "elements": [_element(words, element) for element in record.quality.elements],
+        "residuals": [_residuals(element.id, residuals) for element, residuals in record.quality.measured],
         "checks": [_outcome(outcome) for outcome in record.outcomes],
         "crashed": list(record.crashed),
         "findings": {
@@ -139,6 +141,21 @@ def _element(words: Words, element: Element) -> dict[str, Any]:
         "parameters": _parameters(element.parameters),
         "method": element.method,
         "details": [{"name": name, "found": number(found), "of": number(of)} for name, found, of in element.details],
+    }
+
+
+def _residuals(element: str, residuals: Residuals) -> dict[str, Any]:
+    return {
+        "element": element,
+        "axis": residuals.axis,
+        "n": residuals.n,
+        "rmse": residuals.rmse,
+        "rmse_without_outliers": residuals.rest,
+        "test": {"name": "generalized ESD", "significance": residuals.significance, "most": residuals.most},
+        "rows": [
+            {**{key: value for key, value in asdict(row).items() if key != "place"}, "place": _value(row.place)}
+            for row in residuals.rows
+        ],
     }
 
 

@@ -19,6 +19,7 @@ from foparq.columns import Geometries, Index, Texts
 from foparq.read.guard.stage import private_folder
 from foparq.report.qgis_styles import LAYERS, FlagLayer, add_styles
 from foparq.report.record import AuditRecord
+from foparq.report.residuals import PointResidual, point_residuals
 from foparq.report.rows import written_rows
 from foparq.report.sentences import finding_sentences
 from foparq.report.words import Words, printable
@@ -28,6 +29,8 @@ UNDEFINED = (
     'ENGCRS["Undefined Cartesian SRS",EDATUM["unknown"],CS[Cartesian,2],'
     'AXIS["(E)",east,ORDER[1],LENGTHUNIT["metre",1]],AXIS["(N)",north,ORDER[2],LENGTHUNIT["metre",1]]]'
 )
+
+RESIDUALS = "residuals"  #: layer of the checkpoints; only where differences were measured
 
 _DIMENSION_OF_TYPE = np.array([0, 1, 1, 2, 0, 1, 2], dtype=np.intp)  # by shapely type id, collections apart
 
@@ -45,7 +48,8 @@ def write_findings_gpkg(record: AuditRecord, path: Path) -> None:
     One finding is one feature: a place of several parts is a multi-geometry, and of a mixed place the parts of highest
     dimension are written. A finding without a place stands in ``flags_p`` without geometry. Two-dimensional places get
     depth 0 where a layer also holds places with depth; the column ``z`` keeps the difference. At most
-    ``record.written`` findings of each rule are written.
+    ``record.written`` findings of each rule are written. The layer ``residuals`` holds the checkpoints with their
+    differences in metres, delivered minus surveyed.
     """
     # GDAL takes no path with line breaks or undecodable letters: the file is made where the path is plain.
     with private_folder() as plain:
@@ -66,6 +70,8 @@ def _write_database(record: AuditRecord, path: Path) -> None:
         chosen = dimension == n
         own = {name: column[chosen] for name, column in columns.items()}
         layers.append((layer.name, *_of_one_type(shapes[chosen], layer), own))
+    if points := point_residuals(record):
+        layers.append(_residual_layer(record, points))
     try:
         _write_layers(path, layers, _shared_crs(record))
     except (pyogrio.errors.CRSError, UnicodeError):
@@ -78,6 +84,32 @@ def _write_database(record: AuditRecord, path: Path) -> None:
         database.execute("UPDATE gpkg_contents SET last_change = ?", (_moment(record),))
         database.commit()
         database.execute("VACUUM")
+
+
+def _residual_layer(
+    record: AuditRecord, points: Sequence[PointResidual]
+) -> tuple[str, Geometries, str, dict[str, NDArray[Any]]]:
+    """Checkpoints where they were delivered, in the coordinates of the file they lie in, with their differences."""
+    metres = {drawing.path: drawing.unit.metres or 1.0 for drawing in record.delivery.drawings}
+    first = next(iter(metres.values()), 1.0)
+    places = np.array([point.place or (np.nan,) * 3 for point in points])
+    file = places / np.array([metres.get(point.drawing, first) for point in points])[:, np.newaxis]
+    shapes = np.full(len(points), None, dtype=object)
+    placed = np.isfinite(file).all(axis=1)
+    shapes[placed] = shapely.points(file[placed])
+    deltas = np.array([point.difference for point in points], dtype=float)
+    texts = {name: _texts(np.array([getattr(point, name) for point in points], dtype=object)) for name in _TIED}
+    columns: dict[str, NDArray[Any]] = {
+        "id": texts["id"],
+        **{name: deltas[:, axis] for axis, name in enumerate(("dx", "dy", "dz"))},
+        "counted": np.array([point.counted for point in points]),
+        "outlier": np.array([point.outlier for point in points]),
+        **{name: texts[name] for name in _TIED[1:]},
+    }
+    return RESIDUALS, shapes, "Point Z", columns
+
+
+_TIED = ("id", "lies", "drawing", "item", "layer")
 
 
 def _columns(record: AuditRecord, rows: Index) -> dict[str, NDArray[Any]]:

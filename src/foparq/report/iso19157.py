@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """``quality.xml``: stand-alone quality report in the mdq encoding of ISO/TS 19157-2:2016.
 
-The encoding has no slot for the parameters of a measure, tolerances among them: they travel as text in the description
-of the measure. A result that is neither pass nor fail is descriptive, never a conformance result.
+The encoding has no slot for the parameters of a measure: tolerances travel as text in the description of the method,
+statistics, counts and single differences in a descriptive result of their own. A result that is neither pass nor fail
+is descriptive, never a conformance result. What was not evaluated names no method.
 """
 
 from collections.abc import Iterable, Iterator
@@ -13,8 +14,9 @@ from lxml import etree
 from lxml.builder import ElementMaker
 
 from foparq.evaluate.measures import measures
-from foparq.evaluate.quality import Element, ElementStatus, Reason, Verdict
+from foparq.evaluate.quality import Element, ElementStatus, Reason, Residual, Verdict
 from foparq.report.record import AuditRecord
+from foparq.report.residuals import standing_words
 from foparq.report.sentences import parameter_name, reason_sentence, specification
 from foparq.report.words import Words, printable
 
@@ -30,6 +32,7 @@ NAMESPACES = {
 }
 _CODE_LISTS = {
     "MD_ScopeCode": _ISO + "19115/resources/Codelists/cat/codelists.xml#MD_ScopeCode",
+    "CI_RoleCode": _ISO + "19115/resources/Codelists/cat/codelists.xml#CI_RoleCode",
     "DQ_EvaluationMethodTypeCode": _ISO + "19157/resources/Codelists/cat/codelists.xml#DQ_EvaluationMethodTypeCode",
 }
 #: SI unit: id in the document, code and its register
@@ -39,6 +42,11 @@ _UNITS = {
     "1": ("unity", "urn:ogc:def:uom:EPSG::9201", "EPSG"),
 }
 _VERDICT_MEASURE = "101"
+#: measures of points and distances that somebody chose
+_SAMPLED = frozenset({"39", "128", "foparq:distance-rmse", "foparq:trend", "foparq:normality"})
+_UNEVALUATED = frozenset({ElementStatus.NOT_ASSESSED, ElementStatus.NOT_APPLICABLE})
+_BESIDE = ("report.html", "findings.gpkg", "findings.jsonl", "audit.json")  #: reports that this one points to
+_LISTED = 100  #: differences that are listed, worst first
 _XLINK = f"{{{NAMESPACES['xlink']}}}"
 _XSI = f"{{{NAMESPACES['xsi']}}}"
 _Node = Any  # lxml publishes no types
@@ -87,7 +95,7 @@ class _Report:
             _mdq.scope(_scope(title)),
             _mdq.standaloneQualityReport(
                 _mdq.DQ_StandaloneQualityReportInformation(
-                    _mdq.reportReference(_citation(self.words("evaluate.xml.title", title=title))),
+                    _mdq.reportReference(self._reference(title)),
                     _mdq.abstract(_text(self._abstract())),
                 )
             ),
@@ -95,11 +103,23 @@ class _Report:
             _mdq.report(self._verdict()),
         )
 
+    def _reference(self, title: str) -> _Node:
+        """Citation of the report: who made it, and what lies beside it."""
+        node = _citation(self.words("evaluate.xml.title", title=title))
+        maker = f"foparq {self.record.versions.get('foparq', '')}".strip()
+        party = _cit.CI_Organisation(_cit.name(_text(maker)))
+        role = _cit.role(_code("CI_RoleCode", "processor", _cit))
+        node.append(_cit.citedResponsibleParty(_cit.CI_Responsibility(role, _cit.party(party))))
+        for name in (name for name in _BESIDE if name not in self.record.crashed):
+            node.append(_cit.onlineResource(_cit.CI_OnlineResource(_cit.linkage(_text(name)))))
+        return node
+
     def _abstract(self) -> str:
         verdict = self.words(f"evaluate.verdict.name.{self.record.quality.verdict.value}")
         key = "evaluate.xml.abstract-loose" if self.record.loose else "evaluate.xml.abstract"
         opening = self.words(key, profile=self._specification(), verdict=verdict)
-        return " ".join([opening, *self._sentences(() if self.record.loose else self.record.quality.why)])
+        quality = self.record.quality
+        return " ".join([opening, *self._sentences(() if self.record.loose else (*quality.why, *quality.remarks))])
 
     def _specification(self) -> str:
         record = self.record
@@ -112,9 +132,10 @@ class _Report:
     def _element(self, element: Element) -> _Node:
         node = _mdq(
             f"DQ_{element.element}",
-            _mdq.measure(self._measure(element.measure_id, element.measure_name, self._description(element))),
-            _mdq.evaluationMethod(self._method(element)),
+            _mdq.measure(self._measure(element.measure_id, element.measure_name)),
         )
+        if element.value is not None or element.status not in _UNEVALUATED:
+            node.append(_mdq.evaluationMethod(self._method(element)))
         if element.value is not None:
             node.append(_mdq.result(self._quantitative(element)))
         statement = " ".join(self._sentences(element.why))
@@ -122,33 +143,36 @@ class _Report:
             node.append(_mdq.result(self._conformance(statement, passed=element.status is ElementStatus.PASS)))
         else:
             node.append(_mdq.result(_descriptive(statement)))
+        if run := self._run(element):
+            node.append(_mdq.result(_descriptive(run)))
         return node
 
-    def _measure(self, identifier: str, name: str, description: str) -> _Node:
+    def _measure(self, identifier: str, name: str) -> _Node:
         space, _, code = identifier.rpartition(":")
         translated = self.words.find(f"evaluate.measure.{identifier}")
         names = [name] if translated in {None, name} else [name, translated]
-        node = _mdq.DQ_MeasureReference(
+        return _mdq.DQ_MeasureReference(
             _mdq.measureIdentification(
                 _mcc.MD_Identifier(_mcc.code(_text(code)), _mcc.codeSpace(_text(space or "ISO 19157")))
             ),
             *(_mdq.nameOfMeasure(_text(name)) for name in names),
         )
-        if description:
-            node.append(_mdq.measureDescription(_text(description)))
-        return node
 
-    def _description(self, element: Element) -> str:
-        """Statistics, counts per class or rule, and the tolerances of the rules."""
+    def _run(self, element: Element) -> str:
+        """Statistics, counts per class or rule, and differences of this run."""
         parts = [
             f"{parameter_name(self.words, name)}: {self.words.quantity(value, unit)}"
             for name, value, unit in element.parameters
         ]
         for name, found, out_of in element.details:
-            counts = f"{printable(name)}: {self.words.count(found)} / {self.words.count(out_of)}"
-            tolerances = self._tolerances(name)
-            parts.append(f"{counts} ({tolerances})" if tolerances else counts)
+            parts.append(f"{printable(name)}: {self.words.count(found)} / {self.words.count(out_of)}")
+        if element.residuals is not None:
+            parts += [self._residual(row) for row in element.residuals.rows[:_LISTED]]
         return "; ".join(parts)
+
+    def _residual(self, row: Residual) -> str:
+        difference = "–" if row.difference is None else self.words.quantity(row.difference, "m")
+        return f"{printable(row.id)}: {difference} ({standing_words(self.words, row)})"
 
     def _tolerances(self, rule: str) -> str:
         rows = {row for outcome in self.record.outcomes if outcome.name == rule for row in outcome.parameters}
@@ -160,10 +184,20 @@ class _Report:
     def _method(self, element: Element) -> _Node:
         own = f"evaluate.method.{element.measure_id}"
         text = self.words(own if self.words.find(own) else "evaluate.method.rules")
-        return _mdq.DQ_FullInspection(
+        rules = {name: self._tolerances(name) for name, _, _ in element.details}
+        used = "; ".join(f"{printable(name)} ({tolerances})" for name, tolerances in rules.items() if tolerances)
+        parts = [
             *self._when(),
-            _mdq.evaluationMethodDescription(_text(text)),
+            _mdq.evaluationMethodDescription(_text(f"{text} {used}".strip())),
             _mdq.evaluationMethodType(_code("DQ_EvaluationMethodTypeCode", element.method, _mdq)),
+        ]
+        if element.measure_id not in _SAMPLED:
+            return _mdq.DQ_FullInspection(*parts)
+        return _mdq.DQ_SampleBasedInspection(
+            *parts,
+            _mdq.samplingScheme(_text(self.words("evaluate.sampling.scheme"))),
+            _mdq.lotDescription(_text(self.words("evaluate.sampling.lot"))),
+            _mdq.samplingRatio(_text(self.words("evaluate.sampling.ratio", n=element.n))),
         )
 
     def _when(self) -> Iterator[_Node]:
@@ -212,7 +246,7 @@ class _Report:
             *self._when(), _mdq.evaluationMethodDescription(_text(self.words(f"evaluate.method.{_VERDICT_MEASURE}")))
         )
         node = _mdq.DQ_UsabilityElement(
-            _mdq.measure(self._measure(_VERDICT_MEASURE, measures()[_VERDICT_MEASURE].name, "")),
+            _mdq.measure(self._measure(_VERDICT_MEASURE, measures()[_VERDICT_MEASURE].name)),
             _mdq.evaluationMethod(method),
         )
         if self.record.loose or quality.verdict is Verdict.UNDECIDED:

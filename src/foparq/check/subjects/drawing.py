@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 
 from foparq.check.drawn.columns import Columns
+from foparq.check.drawn.coverages import undeclared_coverages
 from foparq.check.drawn.facts import EXAMINED, FACTS
 from foparq.check.drawn.stance import better_plane
 from foparq.check.drawn.unit_evidence import against
@@ -18,6 +19,7 @@ from foparq.findings.because import Because
 from foparq.findings.hits import Hits
 from foparq.findings.outcome import Outcome, Status
 from foparq.geom.places import place_on
+from foparq.geom.sizes import smaller_than
 from foparq.model.drawing import Drawing, UnitOrigin
 from foparq.model.inputs import Areas, Features, Lines, Named
 from foparq.model.items import Role
@@ -48,6 +50,8 @@ class DrawingSubject(Subject):
         self.drawing = part
         self.columns = Columns(part, hidden=profile.reading.hidden == "check")
         self._taken: dict[tuple[type, Patterns], Taken] = {}
+        self._small: dict[float, Index] = {}
+        self._undeclared: tuple[str, ...] | None = None
 
     @property
     def part(self) -> Drawing:
@@ -122,6 +126,23 @@ class DrawingSubject(Subject):
             return 1  # a statement about the file: the file was checked
         drawn = rows[self.drawing.items.role[rows] != Role.POINT]
         return len(np.unique(np.concatenate([drawn, faulty[faulty >= 0]])))
+
+    def too_small(self, rows: Index, visible: float) -> Index:
+        """Lines and areas that fit into a smaller circle; points have no size."""
+        if visible not in self._small:
+            drawn = np.flatnonzero(self.columns.role != Role.POINT)
+            self._small[visible] = self.columns.rows[drawn[smaller_than(self.columns.geometry[drawn], visible)]]
+        found: Index = np.intersect1d(rows, self._small[visible])
+        return found
+
+    def undeclared(self, kind: type, visible: float) -> tuple[str, ...]:
+        """Layers whose closed lines look like a coverage; places nearer than a twentieth of what is visible are one."""
+        if kind is not Areas:
+            return ()
+        if self._undeclared is None:
+            found = undeclared_coverages(self.columns, coincide=visible / 20)
+            self._undeclared = tuple(literal(layer) for layer in found)
+        return self._undeclared
 
     def named(self, rows: Index) -> tuple[Texts, Texts]:
         """Item ids and layers."""

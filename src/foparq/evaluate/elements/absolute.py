@@ -10,6 +10,7 @@ from foparq.columns import Reals
 from foparq.evaluate.evidence import Evidence, element, judged, limit_of
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
+from foparq.evaluate.residuals import naming_worst, point_residuals
 from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters, with_doubts
 from foparq.evaluate.tied import tied_points, unchecked
 from foparq.profile.elements import AXES, AbsoluteSpec
@@ -44,12 +45,14 @@ def _axis(spec: AbsoluteSpec, evidence: Evidence, axis: int) -> Element:
         kind="absolute", id=id_, all=tied.differences[:, axis], resolution=resolution, survey_sd=points.survey_sd
     )
     judgement = judged(ElementStatus.UNDECIDED, no_limit) if no_limit else judge_rmse(sample, spec, limit or 0.0)
+    residuals = point_residuals(points, tied, evidence, axis, spec.confidence)
+    judgement = naming_worst(judgement, residuals, id_, limit)
     judgement = with_doubts(judgement, tied, sample, unchecked(evidence, axis, id_))
     found = moments(sample.known)
     return element(
         spec, "39", judgement, id=id_, scope=scope, n=found.n, value=found.rmse, limit=limit, comparison="<",
         parameters=(*rmse_parameters(sample, spec), ("rmse-xyz", _in_space(tied.differences), "m")),
-        method="directExternal",
+        method="directExternal", residuals=residuals,
     )  # fmt: skip
 
 

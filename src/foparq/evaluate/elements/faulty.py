@@ -1,10 +1,18 @@
 # SPDX-License-Identifier: MIT
 """Logical consistency: which share of the features is at fault."""
 
-from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
+from foparq.evaluate.evidence import Evidence, Judgement, Parameters, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
-from foparq.evaluate.tally import Tally, broken_reasons, iso_counts, judge_nothing, tally, unfit_remark
+from foparq.evaluate.tally import (
+    Tally,
+    broken_reasons,
+    iso_counts,
+    judge_nothing,
+    tally,
+    undeclared_reasons,
+    unfit_remark,
+)
 from foparq.findings.because import Because
 from foparq.profile.elements import FaultyRateSpec
 
@@ -14,6 +22,9 @@ _MEASURE = "foparq:faulty-features"
 @evaluates(FaultyRateSpec, measure=_MEASURE)
 def faulty_rate(spec: FaultyRateSpec, evidence: Evidence) -> tuple[Element, ...]:
     """Distinct faulty features of the named rules over the features checked; the limit may be reached.
+
+    What is too small to be seen at the scale is no feature checked, unless it is at fault. The rate by length, and the
+    counts of each of several drawings, stand beside it and decide nothing.
 
     The order of decisions:
 
@@ -41,13 +52,23 @@ def faulty_rate(spec: FaultyRateSpec, evidence: Evidence) -> tuple[Element, ...]
         judgement = _judge(spec, evidence, found, limit)
     parameters = (
         ("faulty", float(found.faulty), "items"), ("checked", float(found.checked), "items"),
-        ("set-aside", float(found.aside), "items"), ("not-run-on", float(found.unrun), "items"), *iso_counts(found),
+        ("set-aside", float(found.aside), "items"), ("not-run-on", float(found.unrun), "items"),
+        ("too-small", float(found.small), "items"), *_by_length(found), *iso_counts(found),
     )  # fmt: skip
     made = element(
         spec, _MEASURE, judgement, scope=evidence.files("drawing"), n=found.checked, value=value, limit=limit,
-        comparison="<=", parameters=parameters, method="directInternal", details=found.rules,
+        comparison="<=", parameters=parameters, method="directInternal",
+        details=(*found.rules, *found.parts),
     )  # fmt: skip
     return (made,)
+
+
+def _by_length(found: Tally) -> Parameters:
+    """The rate by length, for information: the length of what is at fault over that of all linework."""
+    if found.extent is None:
+        return ()
+    faulty, whole = found.extent
+    return (("length-faulty", faulty, "m"), ("length", whole, "m"), ("length-rate", faulty / whole, "1"))
 
 
 def _judge(spec: FaultyRateSpec, evidence: Evidence, found: Tally, limit: float) -> Judgement:
@@ -57,7 +78,7 @@ def _judge(spec: FaultyRateSpec, evidence: Evidence, found: Tally, limit: float)
         "element": name, "faulty": found.faulty, "checked": found.checked, "value": (rate, "1"), "limit": (limit, "1"),
     }  # fmt: skip
     preview = because("checks.preview", element=name, rules=list(found.preview))
-    remarks = (*unfit_remark(found, name), *((preview,) if found.preview else ()))
+    remarks = (*undeclared_reasons(found, name), *unfit_remark(found, name), *((preview,) if found.preview else ()))
     if free := sum(outcome.found for outcome in evidence.outcomes if outcome.name == "free-end"):
         remarks = (*remarks, because("faulty.free", element=name, n=free))
     if any(why is Because.CRASHED for why, _ in found.broken):

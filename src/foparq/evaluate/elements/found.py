@@ -5,7 +5,15 @@ from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.measures import Measure, measure_counting, measures
 from foparq.evaluate.quality import Element, ElementStatus, because
-from foparq.evaluate.tally import Tally, broken_reasons, iso_counts, judge_nothing, tally, unfit_remark
+from foparq.evaluate.tally import (
+    Tally,
+    broken_reasons,
+    iso_counts,
+    judge_nothing,
+    tally,
+    undeclared_reasons,
+    unfit_remark,
+)
 from foparq.findings.because import Because
 from foparq.profile.elements import FoundRateSpec
 
@@ -17,7 +25,7 @@ def found_rate(spec: FoundRateSpec, evidence: Evidence) -> tuple[Element, ...]:
     Measures 4, 11, 19, 23, 24 and 26 of ISO 19157 are counts: they name the result only where it is one, for a single
     rule and a limit in items. Beside a rate they stand among the parameters.
 
-    Without a limit the result is a number and no verdict: not applicable, or undecided where the profile requires it.
+    Without a limit the result is a number and no verdict: reported, or undecided where the profile requires it.
 
     Returns
     -------
@@ -38,10 +46,12 @@ def found_rate(spec: FoundRateSpec, evidence: Evidence) -> tuple[Element, ...]:
             "found.reported", element=spec.id, found=found.found, checked=found.checked, value=(rate, "1")
         )
         doubts = (*broken_reasons(found, spec.id), *unseen(evidence, spec.id))
-        status = ElementStatus.UNDECIDED if spec.required else ElementStatus.NOT_APPLICABLE
+        status = ElementStatus.UNDECIDED if spec.required else ElementStatus.REPORTED
         judgement = judged(status, *((no_limit,) if spec.required and no_limit else ()), reported, *doubts)
     else:
         judgement = judged(ElementStatus.UNDECIDED, *filter(None, [no_limit]))
+    if (undeclared := undeclared_reasons(found, spec.id)) and judgement.status is not ElementStatus.FAIL:
+        judgement = judged(ElementStatus.NOT_ASSESSED, *dict.fromkeys([*undeclared, *judgement.why]))
     parameters = (("found", float(found.found), "items"), ("checked", float(found.checked), "items"))
     shown = parameters if rate is None or not counting else (*parameters, ("rate", rate, "1"))
     made = element(

@@ -5,6 +5,7 @@ from foparq.accuracy.moments import moments
 from foparq.evaluate.evidence import Evidence, element, judged, limit_of
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
+from foparq.evaluate.residuals import distance_residuals, naming_worst
 from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters, with_doubts
 from foparq.evaluate.tied import tied_distances
 from foparq.profile.elements import RelativeSpec
@@ -35,10 +36,12 @@ def relative(spec: RelativeSpec, evidence: Evidence) -> tuple[Element, ...]:
         survey_sd=distances.survey_sd,
     )  # fmt: skip
     judgement = judged(ElementStatus.UNDECIDED, no_limit) if no_limit else judge_rmse(sample, spec, limit or 0.0)
+    residuals = distance_residuals(distances, tied, evidence, spec.confidence)
+    judgement = naming_worst(judgement, residuals, spec.id, limit)
     judgement = with_doubts(judgement, tied, sample)
     found = moments(sample.known)
     made = element(
         spec, _MEASURE, judgement, scope=scope, n=found.n, value=found.rmse, limit=limit, comparison="<",
-        parameters=rmse_parameters(sample, spec), method="directExternal",
+        parameters=rmse_parameters(sample, spec), method="directExternal", residuals=residuals,
     )  # fmt: skip
     return (made,)

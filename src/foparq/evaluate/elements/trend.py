@@ -28,7 +28,8 @@ def trend(spec: TrendSpec, evidence: Evidence) -> tuple[Element, ...]:
     -------
     tuple of Element
         ``Q6-X``, ``Q6-Y``, ``Q6-Z``. The mean is ISO 19157 measure 128, among the parameters. If the differences do not
-        look normal a remark says so and gives the sign test, which needs no normality.
+        look normal a remark says so and gives the sign test, which needs no normality. That at least one of three axes
+        shows a trend where there is none, ``1 - confidence^3``, is among the parameters and stands beside a failure.
     """
     points = evidence.delivery.checkpoints
     scope = evidence.files("checkpoints")
@@ -64,9 +65,14 @@ def _axis(spec: TrendSpec, points: Checkpoints, evidence: Evidence, axis: int) -
     if tied.doubts:
         judgement = judged(ElementStatus.UNDECIDED, *tied.doubts)
     remarks, extra = _normality(id_, known, spec.confidence)
+    alarm = 1.0 - spec.confidence ** len(AXES)
+    if judgement.status is ElementStatus.FAIL and not math.isinf(test.t):
+        several = {"axes": len(AXES), "confidence": (spec.confidence, "1"), "share": (alarm, "1")}
+        remarks = (because("trend.several", element=id_, **several), *remarks)
     parameters = (
         ("mean", found.mean, "m"), ("sd", found.sd, "m"), ("n", float(found.n), "items"),
-        ("freedom", float(test.freedom), ""), ("p", test.p, ""), ("confidence", spec.confidence, "1"), *extra,
+        ("freedom", float(test.freedom), ""), ("p", test.p, ""), ("confidence", spec.confidence, "1"),
+        ("false-alarm", alarm, "1"), *extra,
     )  # fmt: skip
     return element(
         spec, _MEASURE, judged(judgement.status, *judgement.why, *remarks), id=id_, scope=scope, n=found.n,

@@ -15,6 +15,7 @@ from foparq.report.page.coverage import LookedAt, coverage
 from foparq.report.page.drawing import GROUPS, Picture, picture_of
 from foparq.report.page.findings import GroupView, Listing, group_view, listing_of, shown_rows
 from foparq.report.page.marks import MarkView, mark_views
+from foparq.report.page.residuals import ResidualsView, Vector, residual_views, vectors
 from foparq.report.page.tables import ElementView, Headline, InputView, element_views, headline, input_views
 from foparq.report.record import AuditRecord
 from foparq.report.templates import environment, shipped_text
@@ -30,6 +31,7 @@ class FigureView:
     about: str
     notes: tuple[str, ...]
     marks: tuple[MarkView, ...]
+    vectors: tuple[Vector, ...]  #: differences of the checkpoints, enlarged
     bar: tuple[float, str]  #: length of the scale bar as a share of the width, and its lettering
 
 
@@ -42,6 +44,7 @@ class View:
     suffix: str  #: of anchors
     headline: Headline
     elements: tuple[ElementView, ...]
+    residuals: tuple[ResidualsView, ...]
     figures: tuple[FigureView, ...]
     faults: tuple[GroupView, ...]
     notes: tuple[GroupView, ...]
@@ -107,7 +110,8 @@ def _view(record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], 
         suffix=suffix,
         headline=headline(words, record, listing.groups, suffix),
         elements=element_views(words, record),
-        figures=tuple(_figure(words, listing, picture, suffix) for picture in pictures),
+        residuals=residual_views(words, record),
+        figures=tuple(_figure(words, record, listing, picture, suffix) for picture in pictures),
         faults=tuple(view(group) for group in listing.groups if group.severity != Severity.NOTE),
         notes=tuple(view(group) for group in listing.groups if group.severity == Severity.NOTE),
         coverage=coverage(words, record, pictures),
@@ -115,7 +119,7 @@ def _view(record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], 
     )
 
 
-def _figure(words: Words, listing: Listing, picture: Picture, suffix: str) -> FigureView:
+def _figure(words: Words, record: AuditRecord, listing: Listing, picture: Picture, suffix: str) -> FigureView:
     drawing = picture.drawing
     about: dict[str, Any] = {
         "items": words.count(len(drawing.items)),
@@ -125,13 +129,18 @@ def _figure(words: Words, listing: Listing, picture: Picture, suffix: str) -> Fi
         "facade": drawing.facade,
     }
     marks = mark_views(words, listing, picture, suffix)
+    arrows, factor = vectors(words, record, picture)
+    notes = _notes(words, listing, picture, len(marks))
+    if arrows:
+        notes = (*notes, words("report.residuals.vectors", factor=words.count(factor)))
     return FigureView(
         picture=picture,
         file=printable(drawing.path),
         marks=marks,
+        vectors=arrows,
         bar=_bar(words, picture),
         about=words("report.drawing.about-facade" if drawing.facade else "report.drawing.about", **about),
-        notes=_notes(words, listing, picture, len(marks)),
+        notes=notes,
     )
 
 

@@ -26,17 +26,17 @@ from foparq.report.words import Words, printable
 OPEN = frozenset({ElementStatus.UNDECIDED, ElementStatus.NOT_ASSESSED})
 TAKEN_IN = frozenset({SourceStatus.READ, SourceStatus.RECOVERED})
 _COUNTED = frozenset({"drawing", "checkpoints", "distances", "features"})  #: roles whose items or rows are told
-_FIRST = 3  #: kinds of fault that the headline names
+_FIRST = 5  #: things to mend that the headline names
 _FILES_NAMED = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cause:
-    """One of the most frequent faults, and what to do about it."""
+    """One thing to mend, and what to do about it."""
 
     anchor: str
     title: str
-    found: str
+    found: str  #: how many; ``""`` of an element
     mend: str
 
 
@@ -48,6 +48,7 @@ class Headline:
     title: str
     sentence: str
     why: tuple[str, ...]
+    remarks: tuple[str, ...]
     gaps: tuple[str, ...]  #: what was not checked, in a few words
     causes: tuple[Cause, ...]
     facts: tuple[tuple[str, str], ...]
@@ -89,24 +90,47 @@ def headline(words: Words, record: AuditRecord, groups: Sequence[Group], suffix:
     """What stands on top of the page."""
     faults = [group for group in groups if group.severity != Severity.NOTE]
     mark, sentence = _loose(words, record, faults) if record.loose else _judged(words, record)
-    causes = sorted(faults, key=lambda group: -group.found)[:_FIRST]
     return Headline(
         mark=mark,
         sentence=sentence,
         title=title(words, record),
         why=tuple(reason_sentence(words, reason) for reason in record.quality.why[_told_above(record) :]),
+        remarks=tuple(reason_sentence(words, reason) for reason in record.quality.remarks),
         gaps=_gaps(words, record),
-        causes=tuple(
-            Cause(
-                anchor=f"r-{group.rule}{suffix}",
-                title=words(f"rules.{group.rule}.title"),
-                found=words.count(group.found),
-                mend=words(f"rules.{group.rule}.mend"),
-            )
-            for group in causes
-        ),
+        causes=_causes(words, record, faults, suffix),
         facts=_facts(words, record),
     )
+
+
+def _causes(words: Words, record: AuditRecord, faults: Sequence[Group], suffix: str) -> tuple[Cause, ...]:
+    """What to mend first, by what it does to the verdict.
+
+    Failing required elements come first, each as the faults that it counts or as its own first reason; then those that
+    leave it open; then all other faults, the most frequent first.
+    """
+    left = {group.name: group for group in sorted(faults, key=lambda group: -group.found)}
+    causes: list[Cause] = []
+    told: set[tuple[str, str]] = set()  # axes of one element are one thing to mend
+    required = [element for element in record.quality.elements if element.required and not record.loose]
+    for status in (ElementStatus.FAIL, ElementStatus.UNDECIDED, ElementStatus.NOT_ASSESSED):
+        for element in (one for one in required if one.status is status):
+            counted = [name for name in left if name in {name for name, _, _ in element.details}]
+            causes += [_fault(words, left.pop(name), suffix) for name in counted]
+            kind = (element.element, element.measure_id)
+            if not counted and element.why and kind not in told:
+                mend = reason_sentence(words, element.why[0])
+                causes.append(
+                    Cause(anchor=f"e-{element.id}{suffix}", title=element_title(words, element), found="", mend=mend)
+                )
+                told.add(kind)
+    return tuple([*causes, *(_fault(words, group, suffix) for group in left.values())][:_FIRST])
+
+
+def _fault(words: Words, group: Group, suffix: str) -> Cause:
+    return Cause(
+        anchor=f"r-{group.rule}{suffix}", title=words(f"rules.{group.rule}.title"), found=words.count(group.found),
+        mend=words(f"rules.{group.rule}.mend"),
+    )  # fmt: skip
 
 
 def _told_above(record: AuditRecord) -> int:
@@ -129,7 +153,7 @@ def title(words: Words, record: AuditRecord) -> str:
 
 def _judged(words: Words, record: AuditRecord) -> tuple[str, str]:
     verdict = record.quality.verdict
-    sentence = words(f"report.headline.{verdict.value}")
+    sentence = words(f"report.headline.{verdict.value}", profile=printable(record.profile_title or record.profile))
     return verdict.value, sentence if record.profile_shipped else f"{sentence} {words('report.headline.own-profile')}"
 
 
@@ -210,7 +234,7 @@ def _element_view(words: Words, element: Element) -> ElementView:
         limit=limit.strip() or "–",
         n=words.count(element.n),
         status=element.status.value,
-        word=words("report.status.reported" if element.only_reported else f"report.status.{element.status.value}"),
+        word=words(f"report.status.{element.status.value}"),
         why=tuple(reason_sentence(words, reason) for reason in element.why),
         required=element.required,
         parameters=(

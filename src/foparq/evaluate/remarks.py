@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: MIT
+"""Which reasons only stand beside a decision, and which decide."""
+
+from foparq.evaluate.quality import Element, Reason
+
+#: messages that decide nothing, wherever they stand
+_REMARKS = frozenset({
+    "absolute.upper", "relative.upper", "trend.not-normal", "trend.several", "residuals.outliers",
+    "residuals.outliers-limit", "evidence.repeated", "evidence.repeated-distances", "evidence.taken", "evidence.flat",
+    "evidence.names-only", "evidence.good", "evidence.absent-confirmed", "evidence.distances-confirmed",
+    "checks.preview", "checks.unfit", "faulty.free", "features.unmapped", "omission.net", "omission.unproven",
+})  # fmt: skip
+
+
+def deciding(element: Element) -> tuple[Reason, ...]:
+    """Reasons that leave an element open: all but remarks, at least the first."""
+    return tuple(reason for reason in element.why if reason.message not in _REMARKS) or element.why[:1]
+
+
+def remarks_on(element: Element, decisive: tuple[Reason, ...]) -> tuple[Reason, ...]:
+    """The other reasons of an element."""
+    return tuple(reason for reason in element.why if reason not in decisive)

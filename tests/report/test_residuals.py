@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+"""Differences in the page, in ``audit.json`` and in ``findings.gpkg`` say what the quality report says."""
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from pyogrio.raw import read
+
+from foparq.evaluate.quality import Residual, Residuals, Standing
+from foparq.report.audit_json import audit_json
+from foparq.report.findings_gpkg import write_findings_gpkg
+from foparq.report.page.page import page
+from foparq.report.record import AuditRecord
+from foparq.report.residuals import point_residuals
+
+DIFFERENCES = {"P1": (0.002, -0.001, 0.003), "P2": (-0.001, 0.002, -0.0713), "<b>": (0.001, 0.0, 0.002)}
+PLACES = {"P1": (11.0, 12.5, 5.2), "P2": (19.0, 12.5, 7.4), "<b>": (0.0, 12.5, 0.0)}
+
+
+def residuals(axis: int) -> Residuals:
+    rows = [
+        Residual(
+            id=id_, difference=found[axis], normalised=found[axis] * 100, expected=0.1, standing=Standing.COUNTED,
+            outlier=(id_, axis) == ("P2", 2), lies="vertex", drawing="fachada.dxf", item="2A", layer="PAREDE",
+            place=PLACES[id_],
+        )
+        for id_, found in DIFFERENCES.items()
+    ]  # fmt: skip
+    rows.sort(key=lambda row: -abs(row.difference or 0.0))
+    return Residuals(axis="XYZ"[axis], rows=tuple(rows), significance=0.05, most=1, n=3, rmse=0.04, rest=0.002)
+
+
+@pytest.fixture
+def measured(rejected: AuditRecord) -> AuditRecord:
+    first, *others = rejected.quality.elements
+    axes = [replace(first, id=f"Q1-{name}", residuals=residuals(axis)) for axis, name in enumerate("XYZ")]
+    return replace(rejected, quality=replace(rejected.quality, elements=(*axes, *others)))
+
+
+def test_points_have_their_three_axes_together(measured: AuditRecord) -> None:
+    points = {point.id: point for point in point_residuals(measured)}
+    assert {id_: point.difference for id_, point in points.items()} == DIFFERENCES
+    assert [id_ for id_, point in points.items() if point.outlier] == ["P2"]
+
+
+def test_json_holds_every_row(measured: AuditRecord) -> None:
+    told = json.loads(json.dumps(audit_json(measured)))["residuals"]
+    assert [one["element"] for one in told] == ["Q1-X", "Q1-Y", "Q1-Z"]
+    assert told[2]["rows"][0]["id"] == "P2"
+    assert told[2]["rows"][0]["difference"] == -0.0713
+    assert told[2]["rows"][0]["place"] == [19.0, 12.5, 7.4]
+
+
+@pytest.mark.parametrize("metres", [1.0, 0.001])
+def test_gpkg_has_points_in_the_units_of_the_file(measured: AuditRecord, tmp_path: Path, metres: float) -> None:
+    (drawing,) = measured.delivery.drawings
+    parts = (replace(drawing, unit=replace(drawing.unit, metres=metres)),)
+    write_findings_gpkg(replace(measured, delivery=replace(measured.delivery, parts=parts)), tmp_path / "f.gpkg")
+    meta, _, geometry, columns = read(tmp_path / "f.gpkg", layer="residuals")
+    table = dict(zip(meta["fields"], columns, strict=True))
+    assert list(table)[:6] == ["id", "dx", "dy", "dz", "counted", "outlier"]
+    found = dict(zip(table["id"], zip(table["dx"], table["dy"], table["dz"], strict=True), strict=True))
+    assert found == DIFFERENCES
+    places = shapely.get_coordinates(shapely.from_wkb(geometry), include_z=True)
+    wanted = np.array([PLACES[id_] for id_ in table["id"]]) / metres
+    assert places == pytest.approx(wanted, rel=1e-12)
+
+
+def test_without_measured_differences_there_is_no_layer_and_no_section(rejected: AuditRecord, tmp_path: Path) -> None:
+    write_findings_gpkg(rejected, tmp_path / "f.gpkg")
+    with pytest.raises(Exception, match="residuals"):
+        read(tmp_path / "f.gpkg", layer="residuals")
+    assert 'id="residuals' not in page(rejected)
+
+
+def test_page_lists_bars_plots_and_vectors(measured: AuditRecord, hostile: str) -> None:
+    text = page(measured)
+    assert text.count('class="length"') == 2 * 9  # both languages, three axes, three points
+    assert text.count('class="dot') == 2 * 9
+    assert text.count('class="vector') - text.count('class="vectors"') == 2 * 3
+    assert "<b>" not in text.replace("&lt;b&gt;", "")
+    assert hostile not in text
+
+
+def test_vectors_point_where_the_differences_do(measured: AuditRecord) -> None:
+    """P2 lies 71.3 mm too low and 1 mm too far left: on the sheet the stroke goes down, y grows downward."""
+    (found,) = set(
+        re.findall(r'class="vector outlier"[^>]*><title>[^<]*</title><path d="M0 0l(-?\d+) (-?\d+)"', page(measured))
+    )
+    right, down = map(int, found)
+    assert down > 0
+    assert right / down == pytest.approx(-0.001 / 0.0713, abs=2e-3)
+
+
+def test_the_worst_is_that_of_the_greatest_share_of_its_limit(measured: AuditRecord) -> None:
+    worst = measured.quality.worst
+    assert worst is not None
+    assert (worst[0].id, worst[1].id) == ("Q1-Z", "P2")
