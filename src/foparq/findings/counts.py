@@ -2,10 +2,19 @@
 """How many features of each class were delivered."""
 
 from dataclasses import dataclass, field
+from enum import StrEnum
 
 import numpy as np
 
 from foparq.columns import Index, Texts
+
+
+class Reading(StrEnum):
+    """What one outline is taken for where the fewest features are counted."""
+
+    COUNTED = "counted"  #: a feature
+    PART = "part"  #: it may be part of another, or of nothing
+    COPY = "copy"  #: it stands in the place of another
 
 
 def _left_out() -> Index:
