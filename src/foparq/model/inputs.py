@@ -6,7 +6,7 @@ defined order that does not depend on the order of the file.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Self
 
@@ -53,6 +53,12 @@ class Lines(Named):
 
     geometry: Geometries  #: (n,)
     bounds: Flags  #: (n,) true for the boundary of an area: neighbours may share it
+    #: (n,) the inserts that hold it, from the outermost inward; each cell of an array by itself. Left out: ``inserts``
+    holders: Texts = field(default_factory=lambda: np.empty(0, dtype=object))
+
+    def __post_init__(self) -> None:
+        if len(self.holders) != len(self.geometry):
+            object.__setattr__(self, "holders", self.inserts)
 
     @cached_property
     def polylines(self) -> Polylines:

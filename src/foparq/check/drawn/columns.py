@@ -136,7 +136,9 @@ class Columns:
         shapes = np.concatenate([self.geometry[single], boundaries])
         bounds = np.concatenate([self.bounding[single], np.ones(len(boundaries), dtype=bool)])
         order = np.argsort(rows, kind="stable")
-        return Lines(geometry=shapes[order], bounds=bounds[order], **self._named(rows[order]))
+        rows = rows[order]
+        holders = self.drawing.items.holders[self.rows[rows]]
+        return Lines(geometry=shapes[order], bounds=bounds[order], holders=holders, **self._named(rows))
 
     def _areas(self, on: Index) -> Areas:
         shapes = self.geometry[on].copy()

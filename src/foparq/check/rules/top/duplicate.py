@@ -7,6 +7,7 @@ from foparq.check.rule import rule
 from foparq.columns import Index
 from foparq.findings.hits import Hits, hits
 from foparq.geom.duplicates import duplicate_groups
+from foparq.geom.wholes import LOOSE, repeated_wholes
 from foparq.model.inputs import Lines
 from foparq.units import Metres
 
@@ -19,6 +20,11 @@ def duplicate(lines: Lines, *, coincide: Metres) -> Hits:
     nowhere farther apart than ``coincide``, in the plane and in depth: vertex by vertex if they have as many, or else
     at every same share of their lengths. Rings may start anywhere; vertices added on a straight piece change nothing.
     Duplicates of duplicates belong to the same group.
+
+    Lines of a block insert are duplicates as well where the insert as a whole is one of another, a little aside: their
+    convex hulls share at least nine tenths of what they cover, and once the boxes are laid centre on centre each line
+    of one lies on a line of its own of the other, within ``coincide``. Two windows cannot stand in one place. Blocks
+    that were mirrored, turned or renamed are compared by their linework; each cell of an array by itself.
 
     Of the lines of a group all but the first are at fault. A line on the boundary of an area is always at fault, the
     boundary never because of it. Boundaries are compared area by area: two areas are duplicates if all their rings are;
@@ -43,7 +49,17 @@ def duplicate(lines: Lines, *, coincide: Metres) -> Hits:
     group = duplicate_groups(lines.polylines, coincide=coincide)
     crowded = np.flatnonzero(np.bincount(group)[group] > 1)
     row, other = _copies(crowded, group, _kinds(lines, crowded, group), lines.bounds)
+    copy, repeated = repeated_wholes(lines.polylines, _inserts(lines), coincide=coincide)
+    new = ~np.isin(copy, row)
+    row, other = np.concatenate([row, copy[new]]), np.concatenate([other, repeated[new]])
     return hits(row, lines.geometry[row], lines.polylines.length_in_space[row], other)
+
+
+def _inserts(lines: Lines) -> Index:
+    """Number (n,) of the insert that holds each line itself."""
+    numbers = {"": LOOSE}
+    held = [numbers.setdefault(holders, len(numbers)) for holders in lines.holders.tolist()]
+    return np.array(held, dtype=np.intp)
 
 
 def _kinds(lines: Lines, rows: Index, group: Index) -> Index:
