@@ -249,7 +249,7 @@ def test_input_columns_are_read_only() -> None:
 def test_features_are_clusters_and_inserts() -> None:
     shapes = [
         "LINESTRING (0 0, 1 0)", "LINESTRING (1.004 0, 1.004 1)",  # 4 mm apart: one window, with an undershoot
-        "LINESTRING (5 0, 6 0)",  # another window
+        "LINESTRING (5 0, 6 0, 6 1, 5 0)",  # another window
         "LINESTRING (8 0, 9 0)", "LINESTRING (8 5, 9 5)",  # one block insert
         "LINESTRING (20 0, 21 0)",  # on a layer of no class
     ]  # fmt: skip
