@@ -3,6 +3,10 @@
 
 import unicodedata
 
+_SHORT = 3  #: letters of a word that is not taken for a plural: ``"S"`` is a facade
+#: plurals of Portuguese that change more than their last letter: vãos, portões, painéis, óis, gradis
+_ENDINGS = {"oes": "ao", "aes": "ao", "ais": "al", "eis": "el", "ois": "ol", "is": "il"}
+
 
 def folded(name: str) -> str:
     """Name without regard to case, blanks around it, and whether accents are composed.
@@ -13,3 +17,45 @@ def folded(name: str) -> str:
     True
     """
     return unicodedata.normalize("NFC", unicodedata.normalize("NFC", name.strip()).casefold())
+
+
+def unaccented(name: str) -> str:
+    """Name folded, and without accents.
+
+    Examples
+    --------
+    >>> unaccented("Obrigat\u00f3rio")
+    'obrigatorio'
+    """
+    letters = unicodedata.normalize("NFD", folded(name))
+    return "".join(letter for letter in letters if not unicodedata.combining(letter))
+
+
+def of_kind(name: str) -> str:
+    """Key of a kind of thing: singular and plural, with and without accents, have one.
+
+    A key to compare by, and no word to show: of what English and Portuguese add in plurals it leaves only what they
+    have in common.
+
+    Examples
+    --------
+    >>> of_kind("Janelas") == of_kind("janela"), of_kind("arches") == of_kind("Arch")
+    (True, True)
+    >>> of_kind("Port\u00f5es de ferro") == of_kind("portao de ferro")
+    True
+    """
+    return " ".join(_singular(word) for word in unaccented(name).split())
+
+
+def _singular(word: str) -> str:
+    if len(word) <= _SHORT:
+        return word
+    for plural, ending in _ENDINGS.items():
+        if word.endswith(plural):
+            return word.removesuffix(plural) + ending
+    if word.endswith("s") and not word.endswith("ss"):
+        word = word.removesuffix("s")
+    if word.endswith("ie"):
+        return word.removesuffix("ie") + "y"
+    # flor, flores; arch, arches; fixture, fixtures
+    return word.removesuffix("e") if word.endswith(("re", "ze", "se", "che", "she", "xe")) else word

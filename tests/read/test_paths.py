@@ -8,8 +8,10 @@ from pathlib import Path
 import pytest
 
 from foparq.errors import UnreadableError, UnsafeError
+from foparq.model.delivery import Source, SourceStatus
 from foparq.read.guard import paths
 from foparq.read.guard.paths import files_of, fit_to_read, inside, sha256_of
+from foparq.read.intake import identified
 
 
 @pytest.fixture
@@ -112,3 +114,37 @@ def test_one_file_more_than_the_most_shows_that_there_are_too_many(
     for n in range(6):
         (tmp_path / f"{n}.dxf").write_text("x")
     assert len(list(files_of(tmp_path, frozenset()))) == 4
+
+
+COMPOSED, DECOMPOSED = "Fachada S\u00e3o Jo\u00e3o.dxf", "Fachada Sa\u0303o Joa\u0303o.dxf"
+
+
+@pytest.mark.parametrize(("written", "there"), [(COMPOSED, DECOMPOSED), (DECOMPOSED, COMPOSED)])
+def test_accents_are_found_however_they_are_composed(tmp_path: Path, written: str, there: str) -> None:
+    folder = tmp_path / "elevac\u0327o\u0303es"
+    folder.mkdir()
+    (folder / there).write_text("")
+    assert inside(tmp_path, f"eleva\u00e7\u00f5es/{written}") == (folder / there).resolve()
+
+
+def test_a_name_in_another_composition_leads_nowhere_else(tmp_path: Path) -> None:
+    home = tmp_path / "a"
+    home.mkdir()
+    (tmp_path / "b.dxf").write_text("")
+    (home / "o\u0301.dxf").symlink_to(tmp_path / "b.dxf")
+    with pytest.raises(UnsafeError):
+        inside(home, "\u00f3.dxf")
+    (home / "u\u0301.dxf").symlink_to(home / "nowhere.dxf")
+    assert not inside(home, "\u00fa.dxf").exists()
+    assert not inside(home, "u\u0301.dxf").exists()
+
+
+def test_a_file_that_is_called_otherwise_is_named_and_not_taken(tmp_path: Path) -> None:
+    (tmp_path / "desenhos").mkdir()
+    (tmp_path / "desenhos" / "fachada.dxf").write_text("")
+    source = Source(path="Desenhos/Fachada.DXF", role="drawing", sha256="", bytes=0, status=SourceStatus.REFUSED)
+    told = identified(source, inside(tmp_path, source.path), 1000)
+    assert (told.status, told.error) == (SourceStatus.MISSING, "read.missing-like")
+    assert dict(told.fields)["other"] == "desenhos/fachada.dxf"
+    (tmp_path / "desenhos" / "FACHADA.dxf").write_text("")
+    assert identified(source, inside(tmp_path, source.path), 1000).error == "read.missing"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Layers by pattern: ``*``, ``?`` and ``[...]``; case does not matter, as in CAD."""
+"""Layers by pattern: ``*``, ``?`` and ``[...]``; case and composition of accents do not matter."""
 
 from collections.abc import Sequence
 from fnmatch import fnmatchcase
@@ -7,14 +7,15 @@ from fnmatch import fnmatchcase
 import numpy as np
 
 from foparq.columns import Flags, Texts
+from foparq.names import folded
 
 _MAGIC = frozenset("*?[")
 
 
 def matches(layer: str, patterns: Sequence[str]) -> bool:
     """Whether a layer name matches one of the patterns."""
-    name = layer.casefold()
-    return any(fnmatchcase(name, pattern.casefold()) for pattern in patterns)
+    name = folded(layer)
+    return any(fnmatchcase(name, folded(pattern)) for pattern in patterns)
 
 
 def matching(layers: Texts, patterns: Sequence[str]) -> Flags:

@@ -7,7 +7,7 @@ decides is what holds for the fewest and for the most there may be.
 """
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any
@@ -21,6 +21,7 @@ from foparq.evaluate.tally import where_broken
 from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.model.tables import FeatureList
+from foparq.names import folded, of_kind
 
 
 class Incomparable(StrEnum):
@@ -109,7 +110,8 @@ def balances(features: FeatureList, counts: FeatureCounts) -> tuple[Balance, ...
     counts : FeatureCounts
         A class and facade that is there with a count of 0 has a layer bound to it.
 
-    Names of classes and facades are told apart without regard to case; the spelling of the list is shown.
+    Names are told apart without regard to case, those of classes without regard to accents and number; the spelling of
+    the list is shown.
 
     Returns
     -------
@@ -217,25 +219,25 @@ class _Spelling:
     """One spelling of every name: the first in order, of the list if it is there."""
 
     def __init__(self, classes: tuple[Texts, Texts], facades: tuple[Texts, Texts]) -> None:
-        self._class, self._facade = _first(*classes), _first(*facades)
+        self._class, self._facade = _first(*classes, of_kind), _first(*facades, folded)
 
     def classes(self, names: Texts) -> Texts:
-        return _renamed(names, self._class)
+        return _renamed(names, self._class, of_kind)
 
     def facades(self, names: Texts) -> Texts:
-        return _renamed(names, self._facade)
+        return _renamed(names, self._facade, folded)
 
 
-def _first(listed: Texts, drawn: Texts) -> dict[str, str]:
+def _first(listed: Texts, drawn: Texts, key: Callable[[str], str]) -> dict[str, str]:
     spelling: dict[str, str] = {}
     for name in (*sorted(set(listed.tolist())), *sorted(set(drawn.tolist()))):
-        spelling.setdefault(name.casefold(), name)
+        spelling.setdefault(key(name), name)
     return spelling
 
 
-def _renamed(names: Texts, spelling: Mapping[str, str]) -> Texts:
+def _renamed(names: Texts, spelling: Mapping[str, str], key: Callable[[str], str]) -> Texts:
     renamed: Texts = np.empty(len(names), dtype=object)
-    renamed[:] = [spelling.get(name.casefold(), name) for name in names.tolist()]
+    renamed[:] = [spelling.get(key(name), name) for name in names.tolist()]
     return renamed
 
 

@@ -9,9 +9,10 @@ from pathlib import Path, PurePosixPath
 from foparq.errors import InputError, ManifestError, UnsafeError
 from foparq.model.delivery import Source, SourceStatus
 from foparq.model.drawing import Drawing
+from foparq.names import folded
 from foparq.profile.schema import Profile
 from foparq.read.gis.companions import companions
-from foparq.read.guard.paths import MOST_FILES, files_of, fit_to_read, name_of, sha256_of
+from foparq.read.guard.paths import MOST_FILES, alike, files_of, fit_to_read, name_of, sha256_of
 
 Progress = Callable[[str], None]
 
@@ -128,8 +129,12 @@ def identified(source: Source, path: Path, limit: int) -> Source:
         If it is no regular file, too large, or may not be read.
     """
     if not path.exists():
-        fields = (("file", source.path),)
-        return replace(source, status=SourceStatus.MISSING, error="read.missing", fields=fields)
+        fields: tuple[tuple[str, object], ...] = (("file", source.path),)
+        message = "read.missing"
+        if (other := alike(path, folded)) is not None:
+            named = "/".join(other.parts[-len(PurePosixPath(source.path).parts) :])
+            fields, message = (*fields, ("other", name_of(named))), "read.missing-like"
+        return replace(source, status=SourceStatus.MISSING, error=message, fields=fields)
     try:
         size = fit_to_read(path, limit)
         return replace(source, sha256=sha256_of(path), bytes=size)

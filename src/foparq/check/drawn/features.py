@@ -5,7 +5,7 @@ A drawing does not say where one feature ends and the next begins, so every coun
 """
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -19,6 +19,7 @@ from foparq.findings.counts import FeatureCounts
 from foparq.geom.rounding import FARTHEST
 from foparq.model.drawing import Drawing
 from foparq.model.items import Role, holders_of
+from foparq.names import folded, of_kind
 
 
 @dataclass(slots=True)
@@ -28,9 +29,9 @@ class _Totals:
     unmapped: Counter[str] = field(default_factory=Counter)
     hidden: set[tuple[str, str, str]] = field(default_factory=set)
 
-    def fold(self, name: str) -> str:
-        self.spelling.setdefault(name.casefold(), set()).add(name)
-        return name.casefold()
+    def fold(self, name: str, key: Callable[[str], str]) -> str:
+        self.spelling.setdefault(key(name), set()).add(name)
+        return key(name)
 
     def shown(self, key: str) -> str:
         return min(self.spelling[key])
@@ -48,8 +49,8 @@ def count_features(drawings: Sequence[Drawing], *, gap: float) -> FeatureCounts 
     no insert stands on such a layer, all that the outermost insert holds. Other linework of one class is one feature as
     long as its pieces lie no farther apart than ``gap`` in the plane of the drawing. Features whose convex hulls share
     nine tenths of what they cover, or lie nowhere farther apart than ``gap``, stand in one place and are one: copies,
-    whatever they are made of. Names of classes and facades are told apart as :func:`foparq.names.folded` does. The
-    three counts read this as follows.
+    whatever they are made of. Names of classes and facades are told apart without regard to case, accents
+    and number (:mod:`foparq.names`). The three counts read this as follows.
 
     ``count``: what may be part of another feature of its class is part of it. That is what lies within the hull of the
     other, or more than a tenth within it; loose linework nearer to it than ``gap``; and loose linework of less than a
@@ -102,7 +103,7 @@ def _add(totals: _Totals, drawing: Drawing, gap: float) -> None:
     there = ~(shapely.is_missing(items.geometry) | shapely.is_empty(items.geometry))
     drawn = there & np.isin(items.role, [Role.LINE, Role.AREA])
     named = there & drawing.visible_rows() & np.isin(items.role, [Role.LINE, Role.AREA, Role.POINT])
-    facade = totals.fold(drawing.facade)
+    facade = totals.fold(drawing.facade, folded)
     rows = np.flatnonzero(drawn | named)
     places = _places(drawing, rows)
     of_class: dict[str, list[int]] = {}
@@ -114,8 +115,8 @@ def _add(totals: _Totals, drawing: Drawing, gap: float) -> None:
     place_of = dict(zip(rows.tolist(), places, strict=True))
     bound = _bound_classes(drawing)
     for name in bound:
-        totals.tallies.setdefault((totals.fold(name), facade), [])
-    for key in sorted({name.casefold() for name in bound}):
+        totals.tallies.setdefault((totals.fold(name, of_kind), facade), [])
+    for key in sorted({of_kind(name) for name in bound}):
         mine = np.array(of_class.get(key, []), dtype=np.intp)
         mine = mine[drawn[mine]]
         shown = items.visible[mine] & ~items.paper[mine]
@@ -147,7 +148,7 @@ def _places(drawing: Drawing, rows: Index) -> list[Place]:
 def _place(layer: str, holders: str, patterns: Mapping[str, str], known: dict[str, str]) -> Place:
     def class_of(name: str) -> str:
         if name not in known:
-            known[name] = next((c.casefold() for pattern, c in patterns.items() if matches(name, (pattern,))), "")
+            known[name] = next((of_kind(c) for pattern, c in patterns.items() if matches(name, (pattern,))), "")
         return known[name]
 
     chain = holders_of(holders)

@@ -4,7 +4,9 @@
 import hashlib
 import re
 import stat
-from collections.abc import Iterator
+import unicodedata
+from collections.abc import Callable, Iterator
+from itertools import islice
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from foparq.errors import UnreadableError, UnsafeError
@@ -29,7 +31,8 @@ def inside(root: Path, named: str) -> Path:
     Returns
     -------
     Path
-        Absolute, links resolved. It need not exist.
+        Absolute, links resolved. It need not exist. Accents may be composed in the manifest and decomposed in the name
+        of the file, as some systems write them, or the other way round.
 
     Raises
     ------
@@ -60,7 +63,32 @@ def inside(root: Path, named: str) -> Path:
         raise UnsafeError("read.path-odd", file=f"{named[:_SHOWN]}...", example=example) from None
     if _SCHEME.match(named) and not there:
         raise UnsafeError("read.path-address", file=named, example=example)
+    if not there:
+        other = alike(full, lambda name: unicodedata.normalize("NFC", name))
+        # What it leads to may lie outside, as any other path.
+        return inside(root, other.relative_to(home).as_posix()) if other is not None else full
     return full
+
+
+def alike(path: Path, key: Callable[[str], str]) -> Path | None:
+    """The only other path that exists and whose names have the same keys as those of a path that does not exist.
+
+    Parameters
+    ----------
+    path : Path
+        Absolute. Of each folder at most :data:`MOST_FILES` entries are looked at.
+    key : callable
+        What of a name counts.
+    """
+    folder = path.parent if path.parent.exists() else alike(path.parent, key)
+    if folder is None or not folder.is_dir():
+        return None
+    try:
+        same = [entry for entry in islice(folder.iterdir(), MOST_FILES) if key(entry.name) == key(path.name)]
+        same = [entry for entry in same if entry != path and entry.exists()]
+    except OSError:
+        return None
+    return same[0] if len(same) == 1 else None
 
 
 def name_of(path: str) -> str:
