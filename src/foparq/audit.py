@@ -21,6 +21,7 @@ from foparq.check.drawn.witnesses import with_witnesses
 from foparq.check.run import check_part
 from foparq.check.validate import validate_checks
 from foparq.errors import ManifestError
+from foparq.evaluate.decisions import wrong_decision
 from foparq.evaluate.evaluate import evaluate
 from foparq.evaluate.evidence import Evidence
 from foparq.findings.because import Because
@@ -190,6 +191,8 @@ def _judged(
         ties=ties,
         faults=int(np.count_nonzero(findings.severity != Severity.NOTE)),
     )  # fmt: skip
+    if not loose and (wrong := wrong_decision(profile, evidence)) is not None:
+        raise ManifestError(f"decision.{wrong.kind}", file=_manifest_of(delivery), **wrong.fields)
     evaluated = evaluate(profile, evidence, terms=terms, loose=loose)
     record = AuditRecord(
         delivery=delivery,
@@ -213,6 +216,10 @@ def _judged(
         written=profile.limits.written,
     )
     return Audit(record=record, log=(*traces, *evaluated.log))
+
+
+def _manifest_of(delivery: Delivery) -> str:
+    return next((source.path for source in delivery.sources if source.role == "manifest"), MANIFEST)
 
 
 def _in_child(function: Callable[..., Iterator[object]], args: tuple[Any, ...], budget: Budget) -> Iterator[object]:

@@ -280,4 +280,6 @@ def test_order_changes_nothing_and_every_feature_is_counted_once(rows: list, cou
     assert all(row.missing * row.surplus == 0 for row in found)
     rng.shuffle(rows)  # type: ignore[attr-defined]
     rng.shuffle(counts)  # type: ignore[attr-defined]
-    assert balances(listed(*((*key, use) for key, use in rows)), counted(*counts)) == found
+    again = balances(listed(*((*key, use) for key, use in rows)), counted(*counts))
+    # Ids are given in order of rows.
+    assert [replace(row, ids=()) for row in again] == [replace(row, ids=()) for row in found]

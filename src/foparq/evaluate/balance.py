@@ -7,7 +7,7 @@ decides is what holds for the fewest and for the most there may be.
 """
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any
@@ -15,11 +15,8 @@ from typing import Any
 import numpy as np
 
 from foparq.columns import Texts
-from foparq.evaluate.evidence import Evidence, Judgement, judged
-from foparq.evaluate.quality import ElementStatus, Reason, because
-from foparq.evaluate.tally import where_broken
-from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
+from foparq.model.statements import Decision
 from foparq.model.tables import FeatureList
 from foparq.names import folded, of_kind
 
@@ -48,11 +45,19 @@ class Balance:
     unproven: int = 0  #: required ones whose omission is said to be accepted, without evidence
     gap: Incomparable = Incomparable.NONE
     hidden: tuple[str, ...] = ()  #: layers of the class with items that nobody sees
+    ids: tuple[str, ...] = ()  #: of the list, sorted
+    decision: Decision | None = None  #: by which a person settled how many are drawn
+    counted: tuple[int, int] = (0, 0)  #: the fewest and the most by linework alone
 
     @property
     def label(self) -> str:
         """``"window / N"``."""
         return f"{self.feature_class} / {self.facade}" if self.facade else self.feature_class
+
+    @property
+    def deciding(self) -> tuple[int, int]:
+        """Numbers of drawn features between which a person may decide."""
+        return self.delivered, max(self.delivered, self.most, self.pieces)
 
     @property
     def missing(self) -> int:
@@ -100,7 +105,7 @@ class _Drawn:
         }  # fmt: skip
 
 
-def balances(features: FeatureList, counts: FeatureCounts) -> tuple[Balance, ...]:
+def balances(features: FeatureList, counts: FeatureCounts, decisions: Sequence[Decision] = ()) -> tuple[Balance, ...]:
     """Balance of every class and facade, ordered by both.
 
     Parameters
@@ -109,6 +114,8 @@ def balances(features: FeatureList, counts: FeatureCounts) -> tuple[Balance, ...
         If all rows of a class state no facade, its drawn features are added over all facades.
     counts : FeatureCounts
         A class and facade that is there with a count of 0 has a layer bound to it.
+    decisions : sequence of Decision
+        What a person counted stands for the interval where it lies within, and for what nobody sees.
 
     Names are told apart without regard to case, those of classes without regard to accents and number; the spelling of
     the list is shown.
@@ -131,88 +138,24 @@ def balances(features: FeatureList, counts: FeatureCounts) -> tuple[Balance, ...
     made: list[Balance] = []
     for name in sorted({*listed, *drawn}):
         made.extend(_of_class(features, name, listed.get(name, set()), drawn.get(name, {}), spoken))
-    return tuple(made)
+    return tuple(_settled(row, decisions) for row in made)
 
 
-def interval(message: str, rows: Iterable[tuple[Balance, int]], **said: object) -> Reason:
-    """Reason that names classes with the fewest and the most features that each may have.
-
-    Parameters
-    ----------
-    rows : iterable of (Balance, int)
-        Classes and the most features.
-    said
-        Further fields.
-    """
-    named = [f"{row.label}: {row.delivered}–{most}" for row, most in rows]
-    return because(message, classes=named[:10], n=len(named), **said)
+def decision_on(row: Balance, decisions: Sequence[Decision]) -> Decision | None:
+    """What a person decided of a class on a facade, if anything."""
+    name, facade = of_kind(row.feature_class), folded(row.facade)
+    of_row = (one for one in decisions if (of_kind(one.feature_class), folded(one.facade)) == (name, facade))
+    return next(of_row, None)
 
 
-def gap_reasons(rows: tuple[Balance, ...], name: str, gaps: tuple[Incomparable, ...]) -> tuple[Reason, ...]:
-    """Reasons for the classes that could not be compared."""
-    labels = {gap: [row.label for row in rows if row.gap is gap] for gap in gaps}
-    return tuple(
-        because(f"features.{gap.value}", element=name, classes=known[:10], n=len(known))
-        for gap, known in labels.items()
-        if known
-    )
-
-
-_BROKEN_OFF = {Because.LIMIT: "features.limit", Because.CRASHED: "features.crashed"}
-
-
-def no_balance(evidence: Evidence, name: str) -> Judgement | None:
-    """Why features cannot be compared at all; ``None`` if they can."""
-    features, drawings = evidence.delivery.features, evidence.delivery.drawings
-    if features is None or not len(features.id):
-        if evidence.lost("features"):
-            return judged(ElementStatus.UNDECIDED, because("features.lost", element=name))
-        return judged(ElementStatus.NOT_ASSESSED, because("features.no-list", element=name))
-    if evidence.counts is not None:
-        return None
-    lost = evidence.lost("drawing")
-    unread = (because("unseen.file", element=name, files=lost),) if lost else uncounted(evidence, name)
-    if unread:
-        return judged(ElementStatus.UNDECIDED, *unread)
-    if evidence.uncounted.opens:
-        return judged(ElementStatus.UNDECIDED, because(_BROKEN_OFF[evidence.uncounted], element=name))
-    bound = any(drawing.classes for drawing in drawings)
-    case = "features.not-counted" if bound else "features.no-classes" if drawings else "checks.no-drawing"
-    return judged(ElementStatus.NOT_ASSESSED, because(case, element=name))
-
-
-def uncounted(evidence: Evidence, name: str) -> tuple[Reason, ...]:
-    """Drawings with classes whose features were not counted because nobody knows their unit."""
-    drawings = [drawing for drawing in evidence.delivery.drawings if drawing.classes and drawing.unit.metres is None]
-    return (because("features.unit-unknown", element=name, files=[d.path for d in drawings]),) if drawings else ()
-
-
-#: why rules with lengths did not run on a drawing, and what that means for its features
-_DOUBTS = {
-    Because.UNIT_DOUBTFUL: "features.unit-doubtful", Because.UNIT_CONTRADICTED: "features.unit-contradicted",
-    Because.PLANE_DOUBTFUL: "features.plane-doubtful", Because.PLANE_CONTRADICTED: "features.plane-contradicted",
-}  # fmt: skip
-
-
-def doubtful(evidence: Evidence, name: str) -> tuple[Reason, ...]:
-    """Drawings whose unit or plane is in doubt: what counts as one feature depends on both, so counts say nothing."""
-    why = []
-    for doubt, message in _DOUBTS.items():
-        doubted = {outcome.source: where_broken(outcome) for outcome in evidence.outcomes if outcome.because is doubt}
-        bound = [drawing.path for drawing in evidence.delivery.drawings if drawing.classes]
-        files = [doubted[path] for path in bound if path in doubted]
-        if files:
-            why.append(because(message, element=name, files=files))
-    return tuple(why)
-
-
-def unmapped(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:
-    """Layers that no class is bound to, as a remark: not assessed, never commission."""
-    if not counts.unmapped:
-        return ()
-    layers = [layer for layer, _ in counts.unmapped]
-    items = sum(count for _, count in counts.unmapped)
-    return (because("features.unmapped", element=name, layers=layers[:10], n=len(layers), items=items),)
+def _settled(row: Balance, decisions: Sequence[Decision]) -> Balance:
+    low, high = row.deciding
+    row = replace(row, counted=(low, high))
+    decision = decision_on(row, decisions)
+    if decision is None or row.gap is not Incomparable.NONE or not low <= decision.counted <= high:
+        return row
+    n = decision.counted
+    return replace(row, delivered=n, most=n, pieces=n, hidden=(), decision=decision)
 
 
 class _Spelling:
@@ -293,4 +236,5 @@ def _listed(features: FeatureList, name: str, facade: str, delivered: _Drawn, ga
     counted: dict[str, Any] = {
         key: int(features.count[np.asarray(mask, dtype=bool)].sum()) for key, mask in total.items()
     }
-    return Balance(feature_class=name, facade=facade, gap=gap, **delivered.row(), **counted)
+    ids = tuple(sorted(features.id[np.asarray(rows, dtype=bool)].tolist()))
+    return Balance(feature_class=name, facade=facade, gap=gap, ids=ids, **delivered.row(), **counted)

@@ -6,7 +6,7 @@ from enum import StrEnum
 
 from foparq.model.drawing import Drawing, Skipped
 from foparq.model.part import Part
-from foparq.model.statements import Confirmation
+from foparq.model.statements import Confirmation, Decision
 from foparq.model.tables import Checkpoints, Distances, FeatureList
 
 
@@ -50,6 +50,7 @@ class Delivery:
     distances: Distances | None = None
     features: FeatureList | None = None
     confirmed: tuple[Confirmation, ...] = ()  #: in the order of the manifest
+    decisions: tuple[Decision, ...] = ()  #: likewise
 
     @property
     def drawings(self) -> tuple[Drawing, ...]:

@@ -13,3 +13,15 @@ class Confirmation:
     by: str
     reason: str
     path: str = ""  #: file it speaks of; ``""``: every file that states the value
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Decision:
+    """How many features of a class are drawn, decided by a person where linework cannot tell."""
+
+    element: str  #: for which it was asked: ``"Q5"``
+    feature_class: str
+    facade: str  #: ``""``: of a list that names none
+    counted: int
+    by: str
+    reason: str

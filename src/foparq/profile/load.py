@@ -50,7 +50,11 @@ _EXAMPLES = {
     "gap": 'gap = "0.2 mm @ scale"',
     "hidden": 'hidden = "leave"',
     "by": 'by = "name and office"',
+    "class": 'class = "window"',
     "confirmed": "[[confirmed]]",
+    "counted": "counted = 12",
+    "decision": "[[decision]]",
+    "element": 'element = "Q5"',
     "kind": 'kind = "omission"',
     "language": 'language = "pt-BR"',
     "layers": 'layers = ["PAREDE*"]',
@@ -285,7 +289,7 @@ def _keys(model: type[BaseModel], place: tuple[str | int, ...]) -> list[str]:
         if field is None:
             break
         found = _model_in(field.annotation) or found
-    return sorted(found.model_fields)
+    return sorted(field.alias or name for name, field in found.model_fields.items())
 
 
 def _model_in(annotation: Any) -> type[BaseModel] | None:  # noqa: ANN401 - a type expression has no type of its own

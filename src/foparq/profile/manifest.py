@@ -76,6 +76,17 @@ class ConfirmedSection(Strict):
     path: str = ""  #: file it speaks of; left out: every file that states the value
 
 
+class DecisionSection(Strict):
+    """``[[decision]]``: how many features are drawn, decided by a person where linework cannot tell."""
+
+    element: Said  #: ``"Q5"``: for which it was asked; the number holds for all elements
+    feature_class: Said = Field(alias="class")
+    facade: str = ""
+    counted: int = Field(ge=0, le=10**9, strict=True)
+    by: Said  #: who answers for it
+    reason: Said
+
+
 class Manifest(Strict):
     """A delivery manifest."""
 
@@ -85,6 +96,7 @@ class Manifest(Strict):
     checkpoints: SurveySection | None = None
     distances: SurveySection | None = None
     confirmed: tuple[ConfirmedSection, ...] = ()
+    decision: tuple[DecisionSection, ...] = ()
     record: Mapping[str, Any] | None = None  #: descriptive record: kept, not assessed yet
     metadata: Mapping[str, Any] | None = None  #: kept, not assessed yet
     capture: Mapping[str, Any] | None = None  #: kept, not assessed yet

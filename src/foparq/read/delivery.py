@@ -18,6 +18,7 @@ from foparq.model.delivery import Delivery, Source, SourceStatus
 from foparq.model.drawing import Drawing
 from foparq.model.items import Items, Role
 from foparq.model.plane import Plane, plane_of
+from foparq.model.statements import Decision
 from foparq.model.tables import Checkpoints, Distances, FeatureList
 from foparq.profile.manifest import ConfirmedSection, DrawingSection, Manifest, TableSection
 from foparq.profile.schema import Profile
@@ -108,6 +109,7 @@ def read_delivery(
         title=manifest.delivery.title or root.resolve().name, sources=tuple(intake.sources),
         parts=tuple(intake.drawings), checkpoints=checkpoints, distances=distances, features=features,
         confirmed=confirmations,
+        decisions=tuple(Decision(**section.model_dump()) for section in manifest.decision),
     )  # fmt: skip
     return delivery, tuple(intake.crashes)
 

@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Commission: drawn features that the specification does not ask for."""
 
-from foparq.evaluate.balance import (
-    Balance,
-    Incomparable,
-    balances,
+from foparq.evaluate.balance import Balance, Incomparable, balances
+from foparq.evaluate.comparable import (
     doubtful,
     gap_reasons,
-    interval,
     no_balance,
     uncounted,
     unmapped,
 )
+from foparq.evaluate.decisions import decided, interval
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
@@ -47,7 +45,7 @@ def commission(spec: CommissionSpec, evidence: Evidence) -> tuple[Element, ...]:
     if nothing is not None or features is None or counts is None:
         judgement = nothing or judged(ElementStatus.NOT_ASSESSED, because("features.no-list", element=spec.id))
         return (element(spec, _MEASURE, judgement, scope=scope, limit=limit, comparison="<=", method="directExternal"),)
-    every = balances(features, counts)
+    every = balances(features, counts, evidence.delivery.decisions)
     known = [row for row in every if row.gap is Incomparable.NONE]
     surplus, required = sum(row.surplus for row in known), sum(row.required for row in known)
     delivered = sum(row.delivered for row in known)
@@ -63,8 +61,9 @@ def commission(spec: CommissionSpec, evidence: Evidence) -> tuple[Element, ...]:
         parameters.append(("surplus-most", float(most), "items"))
     if delivered:
         parameters.append(("share-of-delivered", surplus / delivered, "1"))
+    remarks = (*decided(every, spec.id), *unmapped(counts, spec.id))
     made = element(
-        spec, _MEASURE, judged(judgement.status, *judgement.why, *unmapped(counts, spec.id)), scope=scope, n=required,
+        spec, _MEASURE, judged(judgement.status, *judgement.why, *remarks), scope=scope, n=required,
         value=value if known else None, limit=limit, comparison="<=", parameters=parameters, method="directExternal",
         details=tuple((row.label, float(row.surplus), float(row.required + row.optional)) for row in known),
     )  # fmt: skip
@@ -86,8 +85,8 @@ def _judge(spec: CommissionSpec, evidence: Evidence, every: tuple[Balance, ...],
         )
     several = []
     if _exceeds(most := sum(row.surplus_most for row in known), required, limit):
-        unclear = [(row, row.most) for row in known if row.surplus_most > row.surplus]
-        several.append(interval("commission.interval", unclear, most=most, **fields))
+        unclear = [row for row in known if row.surplus_most > row.surplus]
+        several.append(interval("commission.interval", name, unclear, {"most": most, **fields}))
     doubts = (*several, *gaps, *unseen(evidence, name), *uncounted(evidence, name))
     if doubts:
         return judged(ElementStatus.UNDECIDED, *doubts)

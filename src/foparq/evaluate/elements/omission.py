@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: MIT
 """Omission: specified features that are not drawn."""
 
-from foparq.evaluate.balance import (
-    Balance,
-    Incomparable,
-    balances,
+from foparq.evaluate.balance import Balance, Incomparable, balances
+from foparq.evaluate.comparable import (
     doubtful,
     gap_reasons,
-    interval,
     no_balance,
     uncounted,
     unmapped,
 )
+from foparq.evaluate.decisions import decided, interval
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
@@ -47,7 +45,9 @@ def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
     if nothing is not None or features is None or counts is None:
         judgement = nothing or judged(ElementStatus.NOT_ASSESSED, because("features.no-list", element=spec.id))
         return (element(spec, _MEASURE, judgement, scope=scope, limit=limit, comparison="<=", method="directExternal"),)
-    every = tuple(row for row in balances(features, counts) if row.gap is not Incomparable.UNLISTED)
+    every = tuple(
+        row for row in balances(features, counts, evidence.delivery.decisions) if row.gap is not Incomparable.UNLISTED
+    )
     known = [row for row in every if row.gap is Incomparable.NONE]
     required, missing = sum(row.required for row in known), sum(row.missing for row in known)
     net = sum(row.missing_net for row in known)
@@ -66,8 +66,9 @@ def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
         parameters.append(("missing-least", float(least), "items"))
     if required:
         parameters.append(("net-rate", net / required, "1"))
+    remarks = (*decided(every, spec.id), *unmapped(counts, spec.id))
     made = element(
-        spec, _MEASURE, judged(judgement.status, *judgement.why, *unmapped(counts, spec.id)), scope=scope, n=required,
+        spec, _MEASURE, judged(judgement.status, *judgement.why, *remarks), scope=scope, n=required,
         value=missing / required if required else None, limit=limit, comparison="<=", parameters=parameters,
         method="directExternal",
         details=tuple((row.label, float(row.missing), float(row.required)) for row in known if row.required),
@@ -114,9 +115,9 @@ def _open(known: list[Balance], fields: dict[str, object]) -> tuple[Reason, ...]
     """Why features that were not counted may be drawn all the same."""
     short = [row for row in known if row.missing]
     why = []
-    if several := [(row, row.pieces) for row in short if row.missing_least < row.missing]:
+    if several := [row for row in short if row.missing_least < row.missing]:
         least = sum(row.missing_least for row in known)
-        why.append(interval("omission.interval", several, least=least, **fields))
+        why.append(interval("omission.interval", str(fields["element"]), several, {"least": least, **fields}))
     if layers := sorted({layer for row in short for layer in row.hidden}):
         why.append(because("omission.hidden-layers", layers=layers[:10], n=len(layers), **fields))
     return tuple(why)
