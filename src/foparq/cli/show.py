@@ -13,6 +13,7 @@ import numpy as np
 from foparq.evaluate.quality import Element, Verdict
 from foparq.findings.table import Severity
 from foparq.model.delivery import LOST, SourceStatus
+from foparq.report.balances import balance_note, balance_rows
 from foparq.report.files import text_of
 from foparq.report.formats import format_named
 from foparq.report.record import AuditRecord
@@ -87,6 +88,7 @@ def _text(record: AuditRecord, say: Words, written: Sequence[Path]) -> None:
         for element in record.quality.elements:
             _element(element, say)
         _worst(record, say)
+        _completeness(record, say)
     _findings(record, say)
     _not_checked(record, say)
     if written:
@@ -143,6 +145,19 @@ def _worst(record: AuditRecord, say: Words) -> None:
             standing=standing_words(say, row),
         )
     )  # fmt: skip
+
+
+def _completeness(record: AuditRecord, say: Words) -> None:
+    rows = balance_rows(say, record.quality)
+    if not rows:
+        return
+    click.echo()
+    click.echo(_styled(say("report.balance.title"), bold=True) + f"  {balance_note(say, record.quality)}")
+    for row in rows:
+        counts = say("cli.balance", required=row.required, found=row.found, missing=row.missing, surplus=row.surplus)
+        click.echo(f"  {row.label:<28} {counts}  {row.word}")
+        for note in row.notes:
+            click.echo(f"    {note}")
 
 
 def _findings(record: AuditRecord, say: Words) -> None:

@@ -84,12 +84,13 @@ def interval(message: str, name: str, rows: Sequence[Balance], said: Mapping[str
 
 def _asked(row: Balance, element: str) -> str:
     """Decision on a class on a facade, in words of the manifest on one line."""
-    facade = f"facade = {_quoted(row.facade)}, " if row.facade else ""
-    named = f"element = {_quoted(element)}, class = {_quoted(row.feature_class)}"
+    facade = f"facade = {quoted(row.facade)}, " if row.facade else ""
+    named = f"element = {quoted(element)}, class = {quoted(row.feature_class)}"
     return f"[[decision]] {named}, {facade}counted, by, reason"
 
 
-def _quoted(text: str) -> str:
+def quoted(text: str) -> str:
+    """A text as TOML writes it."""
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 

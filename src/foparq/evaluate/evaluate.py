@@ -4,10 +4,11 @@
 import traceback
 from dataclasses import dataclass, replace
 
+from foparq.evaluate.completeness import class_balances
 from foparq.evaluate.conclusion import conclude_files
 from foparq.evaluate.evidence import Evidence, element, judged
 from foparq.evaluate.kinds import kind_of
-from foparq.evaluate.quality import Element, ElementStatus, QualityReport, because
+from foparq.evaluate.quality import ClassBalance, Element, ElementStatus, QualityReport, because
 from foparq.evaluate.verdict import decide
 from foparq.evaluate.whose import whose
 from foparq.profile.elements import ElementSpec
@@ -48,11 +49,19 @@ def evaluate(profile: Profile, evidence: Evidence, *, terms: Terms | None = None
             log.append(f"element {spec.id}\n{traceback.format_exc()}")
             made = (_crashed(spec),)
         elements.extend(made if spec.applicable else (_waived(one) for one in made))
+    balanced: tuple[ClassBalance, ...] = ()
+    try:
+        balanced = class_balances(evidence)
+    except Exception:  # noqa: BLE001 - as above
+        log.append(f"balances\n{traceback.format_exc()}")
     if log:
         evidence = replace(evidence, crashed=True)
-    conclude = conclude_files if loose else decide
-    quality = conclude(profile, evidence, elements)
-    if terms is not None and not loose and (first := whose(terms, evidence.delivery)):
+    if loose:
+        return Evaluation(conclude_files(profile, evidence, elements), tuple(log))
+    quality = replace(decide(profile, evidence, elements), balances=balanced)
+    if evidence.counts is not None:
+        quality = replace(quality, found=evidence.counts.found)
+    if terms is not None and (first := whose(terms, evidence.delivery)):
         quality = replace(quality, why=(first, *quality.why), terms=first)
     return Evaluation(quality, tuple(log))
 

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The quality report as records: elements after ISO 19157, and the verdict."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
+
+from foparq.findings.counts import FoundFeatures
+from foparq.model.statements import Decision
 
 
 class ElementStatus(StrEnum):
@@ -110,6 +113,42 @@ class Element:
     residuals: Residuals | None = None  #: of an element of measured differences
 
 
+class BalanceState(StrEnum):
+    """What list and drawings say of a class on a facade; each is an id under ``report.balance.state``."""
+
+    EVEN = "even"  #: as many as specified
+    SHORT = "short"  #: fewer
+    OVER = "over"  #: more
+    OPEN = "open"  #: linework allows more than one of these
+    UNBOUND = "unbound"  #: no layer of the class
+    FACADE = "facade"  #: only one side names the facade
+    UNLISTED = "unlisted"  #: the list says nothing of it
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClassBalance:
+    """Specified against drawn features of one class on one facade. Intervals are (least, most)."""
+
+    feature_class: str
+    facade: str  #: ``""`` if the list states none
+    state: BalanceState
+    required: int
+    optional: int
+    found: tuple[int, int]
+    missing: tuple[int, int]
+    surplus: tuple[int, int]
+    ids: tuple[str, ...]  #: of the list
+    rows: tuple[int, ...]  #: of what was found, in ``FeatureCounts.found``
+    hidden: tuple[str, ...] = ()  #: layers of the class with items that nobody sees
+    decision: Decision | None = None  #: by which a person settled how many are drawn
+    only_counted: bool = True  #: which feature is missing is not known: one missing and one surplus cancel
+
+    @property
+    def label(self) -> str:
+        """``"window / N"``."""
+        return f"{self.feature_class} / {self.facade}" if self.facade else self.feature_class
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class QualityReport:
     """All elements of one delivery, or of loose files, and the one conclusion that every report and exit code reads.
@@ -124,6 +163,8 @@ class QualityReport:
     remarks: tuple[Reason, ...] = ()  #: what is to be said beside it
     refused: bool = False  #: a file that was named could not be read
     terms: Reason | None = None  #: whose specification and scale it rests on; then it is the first of the reasons
+    balances: tuple[ClassBalance, ...] = ()  #: by class and facade; none where nothing was compared
+    found: FoundFeatures = field(default_factory=FoundFeatures.none)  #: drawn features
 
     @property
     def measured(self) -> tuple[tuple[Element, Residuals], ...]:

@@ -3,10 +3,11 @@
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Self
 
 import numpy as np
 
-from foparq.columns import Index, Texts
+from foparq.columns import Geometries, Index, Texts
 
 
 class Reading(StrEnum):
@@ -15,6 +16,34 @@ class Reading(StrEnum):
     COUNTED = "counted"  #: a feature
     PART = "part"  #: it may be part of another, or of nothing
     COPY = "copy"  #: it stands in the place of another
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FoundFeatures:
+    """Outlines that were taken for features, k rows ordered by class, facade, drawing and item."""
+
+    feature_class: Texts  #: (k,)
+    facade: Texts  #: (k,)
+    drawing: Texts  #: (k,) path
+    layer: Texts  #: (k,) that gave the class
+    item: Texts  #: (k,) first item, or first of the insert
+    block: Texts  #: (k,) ``""`` for loose linework
+    reading: Texts  #: (k,) value of :class:`Reading`
+    most: Index  #: (k,) the most features that it may be; 0 for copies
+    sheet: Geometries  #: (k,) polygons in the plane of the drawing, metres
+    outline: Geometries  #: (k,) the same in coordinates of the file
+
+    def __len__(self) -> int:
+        return len(self.item)
+
+    @classmethod
+    def none(cls) -> Self:
+        """No features."""
+        text, number = np.empty(0, dtype=object), _left_out()
+        return cls(
+            feature_class=text, facade=text, drawing=text, layer=text, item=text, block=text, reading=text,
+            most=number, sheet=text, outline=text,
+        )  # fmt: skip
 
 
 def _left_out() -> Index:
@@ -36,6 +65,7 @@ class FeatureCounts:
     pieces: Index = field(default_factory=_left_out)  #: (n,) blocks that may hold several opened; left out: ``most``
     unmapped: tuple[tuple[str, int], ...] = ()  #: layers that no class is bound to, with their items: not assessed
     hidden: tuple[tuple[str, str, str], ...] = ()  #: class, facade and layer of items that nobody sees
+    found: FoundFeatures = field(default_factory=FoundFeatures.none)  #: of which the counts are made
 
     def __post_init__(self) -> None:
         for name, instead in (("most", "count"), ("pieces", "most")):

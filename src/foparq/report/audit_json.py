@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from foparq import __version__
-from foparq.evaluate.quality import Element, Reason, Residuals, Verdict
+from foparq.evaluate.quality import ClassBalance, Element, Reason, Residuals, Verdict
+from foparq.findings.counts import FoundFeatures
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import Source
 from foparq.model.drawing import Repair
@@ -61,6 +62,7 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         "inputs": [_source(words, source, repairs.get(source.path, ())) for source in record.delivery.sources],
         "elements": [_element(words, element) for element in record.quality.elements],
         "residuals": [_residuals(element.id, residuals) for element, residuals in record.quality.measured],
+        "completeness": [_balance(balance, record.quality.found) for balance in record.quality.balances],
         "checks": [_outcome(outcome) for outcome in record.outcomes],
         "crashed": list(record.crashed),
         "findings": {
@@ -157,6 +159,36 @@ def _residuals(element: str, residuals: Residuals) -> dict[str, Any]:
             for row in residuals.rows
         ],
     }
+
+
+def _balance(balance: ClassBalance, found: FoundFeatures) -> dict[str, Any]:
+    one = balance.decision
+    return {
+        "class": balance.feature_class,
+        "facade": balance.facade,
+        "state": balance.state.value,
+        "required": balance.required,
+        "optional": balance.optional,
+        **{
+            name: {"least": least, "most": most}
+            for name, (least, most) in (
+                ("found", balance.found), ("missing", balance.missing), ("surplus", balance.surplus)
+            )
+        },
+        "only_counted": balance.only_counted,
+        "ids": list(balance.ids),
+        "hidden_layers": list(balance.hidden),
+        "decision": None if one is None else {
+            "element": one.element, "counted": one.counted, "by": one.by, "reason": one.reason,
+        },
+        "items": [
+            {
+                "drawing": str(found.drawing[row]), "layer": str(found.layer[row]), "item": str(found.item[row]),
+                "block": str(found.block[row]), "reading": str(found.reading[row]), "most": int(found.most[row]),
+            }
+            for row in balance.rows
+        ],
+    }  # fmt: skip
 
 
 def _outcome(outcome: Outcome) -> dict[str, Any]:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from foparq.columns import Geometries, Index, Texts
 from foparq.read.guard.stage import private_folder
+from foparq.report.features_gpkg import features_layer
 from foparq.report.qgis_styles import LAYERS, FlagLayer, add_styles
 from foparq.report.record import AuditRecord
 from foparq.report.residuals import PointResidual, point_residuals
@@ -49,7 +50,7 @@ def write_findings_gpkg(record: AuditRecord, path: Path) -> None:
     dimension are written. A finding without a place stands in ``flags_p`` without geometry. Two-dimensional places get
     depth 0 where a layer also holds places with depth; the column ``z`` keeps the difference. At most
     ``record.written`` findings of each rule are written. The layer ``residuals`` holds the checkpoints with their
-    differences in metres, delivered minus surveyed.
+    differences in metres, delivered minus surveyed; ``features_a`` what was counted as features.
     """
     # GDAL takes no path with line breaks or undecodable letters: the file is made where the path is plain.
     with private_folder() as plain:
@@ -72,6 +73,8 @@ def _write_database(record: AuditRecord, path: Path) -> None:
         layers.append((layer.name, *_of_one_type(shapes[chosen], layer), own))
     if points := point_residuals(record):
         layers.append(_residual_layer(record, points))
+    if len(record.quality.found):
+        layers.append(features_layer(record))
     try:
         _write_layers(path, layers, _shared_crs(record))
     except (pyogrio.errors.CRSError, UnicodeError):

@@ -5,8 +5,9 @@ A drawing does not say where one feature ends and the next begins, so every coun
 """
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -14,12 +15,24 @@ import shapely
 from foparq.check.drawn.facts import all_layers
 from foparq.check.drawn.readings import Place, Readings, read_features
 from foparq.check.layers import matches
-from foparq.columns import Geometries, Index
-from foparq.findings.counts import FeatureCounts
+from foparq.columns import Geometries, Index, Reals, Texts
+from foparq.findings.counts import FeatureCounts, FoundFeatures
 from foparq.geom.rounding import FARTHEST
 from foparq.model.drawing import Drawing
 from foparq.model.items import Role, holders_of
 from foparq.names import folded, of_kind
+
+
+class _Outline(NamedTuple):
+    key: tuple[str, str]
+    drawing: str
+    item: str
+    layer: str
+    block: str
+    reading: str
+    most: int
+    sheet: shapely.Geometry
+    outline: shapely.Geometry
 
 
 @dataclass(slots=True)
@@ -28,6 +41,7 @@ class _Totals:
     tallies: dict[tuple[str, str], list[Readings]] = field(default_factory=dict)
     unmapped: Counter[str] = field(default_factory=Counter)
     hidden: set[tuple[str, str, str]] = field(default_factory=set)
+    rows: list[_Outline] = field(default_factory=list)
 
     def fold(self, name: str, key: Callable[[str], str]) -> str:
         self.spelling.setdefault(key(name), set()).add(name)
@@ -54,9 +68,9 @@ def count_features(drawings: Sequence[Drawing], *, gap: float) -> FeatureCounts 
 
     ``count``: what may be part of another feature of its class is part of it. That is what lies within the hull of the
     other, or more than a tenth within it; loose linework nearer to it than ``gap``; and loose linework of less than a
-    tenth of its area, no farther from it than a quarter of its diagonal, as a sill. An outline of less than a hundredth
-    of the middle area of its class is part of something too. Of drawings that show the same facade, the one with most
-    features counts.
+    tenth of its area, no farther from it than a quarter of its width (twice its area over its girth), as a sill. An
+    outline of less than a hundredth of the middle area of its class is part of something too. Of drawings that show the
+    same facade, the one with most features counts.
 
     ``most``: nothing belongs to what surrounds it. A block that is placed only once may hold several features: each
     block within it is one, except those inside the hull of another. A block that is placed several times may hold as
@@ -95,7 +109,26 @@ def count_features(drawings: Sequence[Drawing], *, gap: float) -> FeatureCounts 
         pieces=np.array([sum(int(tally.pieces.sum()) for tally in tallies) for tallies in found], dtype=np.intp),
         unmapped=tuple(sorted(totals.unmapped.items())),
         hidden=tuple(sorted((totals.shown(name), totals.shown(f), layer) for name, f, layer in totals.hidden)),
+        found=_found(totals),
     )
+
+
+def _found(totals: _Totals) -> FoundFeatures:
+    rows = sorted(totals.rows, key=lambda row: (row.key, row.drawing, row.item))
+
+    def column(values: Iterable[object]) -> Texts:
+        made: Texts = np.empty(len(rows), dtype=object)
+        made[:] = list(values)
+        return made
+
+    return FoundFeatures(
+        feature_class=column(totals.shown(row.key[0]) for row in rows),
+        facade=column(totals.shown(row.key[1]) for row in rows),
+        drawing=column(row.drawing for row in rows), layer=column(row.layer for row in rows),
+        item=column(row.item for row in rows), block=column(row.block for row in rows),
+        reading=column(row.reading for row in rows), most=np.array([row.most for row in rows], dtype=np.intp),
+        sheet=column(row.sheet for row in rows), outline=column(row.outline for row in rows),
+    )  # fmt: skip
 
 
 def _add(totals: _Totals, drawing: Drawing, gap: float) -> None:
@@ -120,9 +153,11 @@ def _add(totals: _Totals, drawing: Drawing, gap: float) -> None:
         mine = np.array(of_class.get(key, []), dtype=np.intp)
         mine = mine[drawn[mine]]
         shown = items.visible[mine] & ~items.paper[mine]
-        seen, flat = _in_plane(drawing, mine[shown])
+        seen, flat, depth = _in_plane(drawing, mine[shown])
         at = [place_of[row] for row in seen.tolist()]
-        totals.tallies[key, facade].append(read_features(flat, at, gap=gap))
+        read = read_features(flat, at, gap=gap)
+        totals.tallies[key, facade].append(read)
+        totals.rows += _outlines((key, facade), drawing, read, seen, at, depth, gap)
         # A block has parts that are not shown, in programs that switch its forms; it is drawn all the same.
         drawn_inserts = {place.feature for place in at} - {()}
         veiled = (place_of[row] for row in mine[~shown].tolist())
@@ -161,13 +196,34 @@ def _place(layer: str, holders: str, patterns: Mapping[str, str], known: dict[st
     return Place(feature_class, giver, way[: at + 1], way, chain[at].block if chain else "", same is not None)
 
 
-def _in_plane(drawing: Drawing, rows: Index) -> tuple[Index, Geometries]:
-    """Rows that lie somewhere, and their geometries in the plane of the drawing, metres."""
+def _in_plane(drawing: Drawing, rows: Index) -> tuple[Index, Geometries, Reals]:
+    """Rows that lie somewhere, their geometries in the plane of the drawing, and their depths, metres."""
     geometry = drawing.items.geometry[rows]
     coordinates, index = shapely.get_coordinates(geometry, include_z=True, return_index=True)
     coordinates[:, 2] = np.nan_to_num(coordinates[:, 2])
     with np.errstate(invalid="ignore", over="ignore"):  # coordinates may be anything
-        sheet = drawing.plane.project(coordinates, drawing.unit.metres or 1.0)[:, :2]
+        sheet = drawing.plane.project(coordinates, drawing.unit.metres or 1.0)
     there = np.ones(len(rows), dtype=bool)
     there[index[~(np.abs(sheet) <= FARTHEST).all(axis=1)]] = False
-    return rows[there], shapely.set_coordinates(shapely.force_2d(geometry[there]), sheet[there[index]])
+    seen = there[index]
+    first = np.unique(index[seen], return_index=True)[1]
+    flat = shapely.set_coordinates(shapely.force_2d(geometry[there]), sheet[seen, :2])
+    return rows[there], flat, sheet[seen, 2][first]
+
+
+def _outlines(
+    key: tuple[str, str], drawing: Drawing, read: Readings, rows: Index, places: Sequence[Place], depth: Reals,
+    gap: float,
+) -> list[_Outline]:  # fmt: skip
+    """What was read as a feature, with its place in the file; an outline without width gets that of ``gap``."""
+    narrow = shapely.area(read.outline) <= 0
+    sheet = np.where(narrow, shapely.buffer(read.outline, gap / 2, quad_segs=2), read.outline)
+    corners, owner = shapely.get_coordinates(sheet, return_index=True)
+    deep = np.column_stack([corners, depth[read.first][owner]])
+    outline = shapely.set_coordinates(shapely.force_3d(sheet), drawing.plane.lift(deep, drawing.unit.metres or 1.0))
+    items = drawing.items.item[rows[read.first]]
+    return [
+        _Outline(key, drawing.path, str(items[n]), places[row].layer, places[row].block, str(read.reading[n]),
+                 int(read.most[n]), sheet[n], outline[n])
+        for n, row in enumerate(read.first.tolist())
+    ]  # fmt: skip

@@ -18,10 +18,10 @@ from foparq.geom.hulls import across, hulls_of, larger_neighbours, leaders, oute
 _OVERLAP = 0.1
 #: a piece with a smaller share of the area of a neighbour may be part of it: a sill, a keystone
 _PIECE = 0.1
-_BESIDE = 0.25  #: share of the diagonal of that neighbour, how far from it such a piece may lie
+_BESIDE = 0.25  #: share of the width of that neighbour, how far from it such a piece may lie
 _SPECK = 0.01  #: share of the middle area of the class, below which an outline is out of proportion to a feature
 _ALIKE = 0.25  #: share of the area of the largest piece of a block, from which another may be a feature like it
-_APART = 0.1  #: share of the diagonal of the largest piece, by which features within a block stand apart
+_APART = 0.04  #: share of the girth of the largest piece, by which features within a block stand apart
 
 
 class Place(NamedTuple):
@@ -101,7 +101,9 @@ def _parts(hulls: Geometries, loose: Flags, gap: float) -> Flags:
     if len(hulls):
         part |= area < _SPECK * np.median(area)
     rows = np.flatnonzero(~part)
-    smaller, larger = larger_neighbours(hulls[rows], within=np.maximum(gap, _BESIDE * across(hulls[rows])))
+    # Of a rectangle a little less than its shorter side, however it is turned.
+    width = 2 * area / np.maximum(shapely.length(hulls), np.finfo(float).tiny)
+    smaller, larger = larger_neighbours(hulls[rows], within=np.maximum(gap, _BESIDE * width[rows]))
     smaller, larger = rows[smaller], rows[larger]
     part[smaller[share_within(hulls[smaller], hulls[larger]) > _OVERLAP]] = True
     beside = loose[smaller] & (area[smaller] < _PIECE * area[larger])
@@ -153,7 +155,7 @@ def _standing_apart(flat: Geometries, gap: float) -> int:
     hulls = hulls[(across(hulls) > gap) & outermost(hulls, np.zeros(len(hulls), dtype=np.intp))]
     area = shapely.area(hulls)
     like = hulls[area >= _ALIKE * area.max(initial=0.0)]
-    return int(clusters(like, gap=_APART * float(across(like).max(initial=0.0))).max(initial=0)) + 1
+    return int(clusters(like, gap=_APART * float(shapely.length(like).max(initial=0.0))).max(initial=0)) + 1
 
 
 def _within(flat: Geometries, feature: Index, part: Index, gap: float) -> Index:

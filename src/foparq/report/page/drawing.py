@@ -9,10 +9,12 @@ import numpy as np
 import shapely
 
 from foparq.columns import Flags, Geometries, Index, Reals, Texts
+from foparq.evaluate.quality import QualityReport
 from foparq.findings.table import Findings, Severity
 from foparq.geom.places import place_on
 from foparq.model.drawing import Drawing
 from foparq.model.items import Role
+from foparq.report.page.completeness import OutlinePath, outline_paths
 from foparq.report.page.frame import beyond, frame, without_strays
 from foparq.report.page.paths import (
     FARTHEST,
@@ -75,6 +77,7 @@ class Picture:
     outside: int  #: items outside the overview, which frames the visible linework
     hidden: int  #: hidden items of model space
     paper: int  #: items of paper space: not drawn
+    outlines: tuple[OutlinePath, ...] = ()  #: of features, by class
 
     def cells(self, points: Reals) -> Reals:
         """Points (n, 2) of the sheet, metres, in cells of the picture."""
@@ -82,7 +85,9 @@ class Picture:
         return np.clip(placed, -FARTHEST, FARTHEST)
 
 
-def picture_of(drawing: Drawing, number: int, findings: Findings, shown: Index) -> Picture:
+def picture_of(
+    drawing: Drawing, number: int, findings: Findings, shown: Index, quality: QualityReport | None = None
+) -> Picture:
     """Picture of one drawing.
 
     Parameters
@@ -93,6 +98,8 @@ def picture_of(drawing: Drawing, number: int, findings: Findings, shown: Index) 
         All findings of the audit.
     shown : (k,) int
         Rows of the findings that the page lists.
+    quality : QualityReport, optional
+        With the features that were found, to be outlined.
 
     Notes
     -----
@@ -136,6 +143,9 @@ def picture_of(drawing: Drawing, number: int, findings: Findings, shown: Index) 
         outside=strays + beyond(exact, corner, size),
         hidden=int(np.sum(~visible & ~drawing.items.paper)),
         paper=int(np.sum(drawing.items.paper)),
+        outlines=outline_paths(drawing.path, quality, lambda shapes: path(strokes_of(shapes, None, 1.0)))
+        if quality
+        else (),
     )
 
 

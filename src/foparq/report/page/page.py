@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from foparq.findings.table import Severity
+from foparq.report.page.completeness import CompletenessView, completeness_view
 from foparq.report.page.coverage import LookedAt, coverage
 from foparq.report.page.drawing import GROUPS, Picture, picture_of
 from foparq.report.page.findings import GroupView, Listing, group_view, listing_of, shown_rows
@@ -45,6 +46,7 @@ class View:
     headline: Headline
     elements: tuple[ElementView, ...]
     residuals: tuple[ResidualsView, ...]
+    completeness: CompletenessView | None  #: none where nothing was compared
     figures: tuple[FigureView, ...]
     faults: tuple[GroupView, ...]
     notes: tuple[GroupView, ...]
@@ -74,7 +76,7 @@ def page(record: AuditRecord) -> str:
         listing = listing_of(record)
         shown = shown_rows(listing.groups)
         pictures = tuple(
-            picture_of(drawing, number, record.findings, shown)
+            picture_of(drawing, number, record.findings, shown, record.quality)
             for number, drawing in enumerate(record.delivery.drawings, start=1)
         )
     languages = sorted(LANGUAGES, key=lambda language: language != record.language)
@@ -111,6 +113,7 @@ def _view(record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], 
         headline=headline(words, record, listing.groups, suffix),
         elements=element_views(words, record),
         residuals=residual_views(words, record),
+        completeness=completeness_view(words, record.quality),
         figures=tuple(_figure(words, record, listing, picture, suffix) for picture in pictures),
         faults=tuple(view(group) for group in listing.groups if group.severity != Severity.NOTE),
         notes=tuple(view(group) for group in listing.groups if group.severity == Severity.NOTE),
