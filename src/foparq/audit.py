@@ -15,7 +15,7 @@ import shapely
 
 from foparq import __version__
 from foparq.check.bounds import Broken, Budget, budget_of
-from foparq.check.drawn.features import count_features
+from foparq.check.drawn.placements import count_listed
 from foparq.check.drawn.ties import Nearness, tie_evidence
 from foparq.check.drawn.witnesses import with_witnesses
 from foparq.check.run import check_part
@@ -178,7 +178,8 @@ def _judged(
     outcomes = tuple(outcome for one in checked for outcome in one.outcomes)
     findings = join_findings([one.findings for one in checked])
     gap = profile.completeness.gap.si(scale) if profile.completeness and not loose else None
-    counts, broken = (None, None) if gap is None else _counted(delivery, gap, profile)
+    near = profile.evidence.search.si(scale) if profile.evidence and gap is not None else gap or 0.0
+    counts, broken = (None, None) if gap is None else _counted(delivery, gap, near, profile)
     traces = (
         *log,
         *(trace for one in checked for trace in one.log),
@@ -241,9 +242,12 @@ def _tied(delivery: Delivery, profile: Profile, scale: float | None) -> tuple[Ti
     return (Ties(broken=broken.because) if broken else ties), broken
 
 
-def _counted(delivery: Delivery, gap: float, profile: Profile) -> tuple[FeatureCounts | None, Broken | None]:
+def _counted(
+    delivery: Delivery, gap: float, near: float, profile: Profile
+) -> tuple[FeatureCounts | None, Broken | None]:
     """Delivered features, or why their count broke off."""
-    return _once("counting features", partial(count_features, gap=gap), (delivery.drawings,), delivery, profile)
+    count = partial(count_listed, features=delivery.features, gap=gap, near=near)
+    return _once("counting features", count, (delivery.drawings,), delivery, profile)
 
 
 def _once(

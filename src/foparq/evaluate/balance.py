@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from foparq.columns import Texts
-from foparq.findings.counts import FeatureCounts
+from foparq.columns import Flags, Texts
+from foparq.findings.counts import FeatureCounts, Listed, Placements
 from foparq.model.statements import Decision
 from foparq.model.tables import FeatureList
 from foparq.names import folded, of_kind
@@ -28,6 +28,18 @@ class Incomparable(StrEnum):
     UNBOUND = "unbound"  #: no layer of a drawing of that facade is bound to the class: no evidence of omission
     FACADE = "facade"  #: list or drawings name no facade, the other side does
     UNLISTED = "unlisted"  #: drawn, but the list says nothing of the class, or nothing of the facade
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Placed:
+    """Features of the list that were looked for where they are listed."""
+
+    required: int = 0
+    optional: int = 0
+    there: int = 0  #: required and optional ones that are there
+    absent: tuple[str, ...] = ()  #: ids of required ones that are not
+    other: tuple[str, ...] = ()  #: those of them in whose place another class is drawn
+    unsure: tuple[str, ...] = ()  #: ids of required ones of which linework does not decide
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,6 +60,7 @@ class Balance:
     ids: tuple[str, ...] = ()  #: of the list, sorted
     decision: Decision | None = None  #: by which a person settled how many are drawn
     counted: tuple[int, int] = (0, 0)  #: the fewest and the most by linework alone
+    placed: Placed = Placed()  #: the rest is compared by count
 
     @property
     def label(self) -> str:
@@ -62,12 +75,14 @@ class Balance:
     @property
     def missing(self) -> int:
         """Required features that are not drawn."""
-        return max(0, self.required - self.delivered)
+        absent = len(self.placed.absent) + len(self.placed.unsure)
+        return absent + max(0, self.required - self.placed.required - self._others(self.delivered))
 
     @property
     def missing_least(self) -> int:
         """Required features that are not drawn even if every piece is a feature."""
-        return max(0, self.required - max(self.delivered, self.pieces))
+        most = self._others(max(self.delivered, self.pieces)) - len(self.placed.unsure)
+        return len(self.placed.absent) + max(0, self.required - self.placed.required - most)
 
     @property
     def missing_net(self) -> int:
@@ -77,12 +92,21 @@ class Balance:
     @property
     def surplus(self) -> int:
         """Drawn features that the list does not allow; of a prohibited class, all."""
-        return max(0, self.delivered - self.required - self.optional)
+        return max(0, self._others(self.delivered) - self._loosely - len(self.placed.unsure))
 
     @property
     def surplus_most(self) -> int:
         """The same if nothing belongs to what surrounds it."""
-        return max(0, max(self.delivered, self.most) - self.required - self.optional)
+        return max(0, self._others(max(self.delivered, self.most)) - self._loosely)
+
+    @property
+    def _loosely(self) -> int:
+        # Features of the list that are compared by count.
+        return self.required + self.optional - self.placed.required - self.placed.optional
+
+    def _others(self, drawn: int) -> int:
+        # Drawn features beside those that are there where they are listed.
+        return max(0, drawn - self.placed.there)
 
 
 @dataclass(slots=True)
@@ -137,7 +161,7 @@ def balances(features: FeatureList, counts: FeatureCounts, decisions: Sequence[D
     spoken = {facade for facades in listed.values() for facade in facades}
     made: list[Balance] = []
     for name in sorted({*listed, *drawn}):
-        made.extend(_of_class(features, name, listed.get(name, set()), drawn.get(name, {}), spoken))
+        made.extend(_of_class(features, name, listed.get(name, set()), drawn.get(name, {}), spoken, counts.placements))
     return tuple(_settled(row, decisions) for row in made)
 
 
@@ -155,7 +179,8 @@ def _settled(row: Balance, decisions: Sequence[Decision]) -> Balance:
     if decision is None or row.gap is not Incomparable.NONE or not low <= decision.counted <= high:
         return row
     n = decision.counted
-    return replace(row, delivered=n, most=n, pieces=n, hidden=(), decision=decision)
+    placed = replace(row.placed, required=row.placed.required - len(row.placed.unsure), unsure=())
+    return replace(row, delivered=n, most=n, pieces=n, hidden=(), decision=decision, placed=placed)
 
 
 class _Spelling:
@@ -197,8 +222,9 @@ def _drawn(counts: FeatureCounts, spelt: _Spelling) -> dict[str, dict[str, _Draw
 
 
 def _of_class(
-    features: FeatureList, name: str, listed: set[str], drawn: Mapping[str, _Drawn], spoken: set[str]
-) -> list[Balance]:
+    features: FeatureList, name: str, listed: set[str], drawn: Mapping[str, _Drawn], spoken: set[str],
+    places: Placements | None,
+) -> list[Balance]:  # fmt: skip
     if not listed:
         rows = [
             Balance(feature_class=name, facade=f, gap=Incomparable.UNLISTED, **n.row())
@@ -216,7 +242,7 @@ def _of_class(
             delivered, gap = _Drawn(), Incomparable.FACADE
         else:
             delivered, gap = drawn.get(facade, _Drawn()), Incomparable.NONE if facade in drawn else Incomparable.UNBOUND
-        made.append(_listed(features, name, facade, delivered, gap))
+        made.append(_listed(features, name, facade, delivered, gap, places))
     if not vague and listed != {""}:
         for facade in sorted(set(drawn) - listed):
             gap = Incomparable.NONE if facade in spoken else Incomparable.UNLISTED
@@ -224,7 +250,9 @@ def _of_class(
     return [row for row in made if row.facade in listed or row.delivered]
 
 
-def _listed(features: FeatureList, name: str, facade: str, delivered: _Drawn, gap: Incomparable) -> Balance:
+def _listed(
+    features: FeatureList, name: str, facade: str, delivered: _Drawn, gap: Incomparable, places: Placements | None
+) -> Balance:
     rows = (features.feature_class == name) & (features.facade == facade)
     required = rows & (features.use == "required")
     excused = required & (features.accepted != "")
@@ -237,4 +265,24 @@ def _listed(features: FeatureList, name: str, facade: str, delivered: _Drawn, ga
         key: int(features.count[np.asarray(mask, dtype=bool)].sum()) for key, mask in total.items()
     }
     ids = tuple(sorted(features.id[np.asarray(rows, dtype=bool)].tolist()))
-    return Balance(feature_class=name, facade=facade, gap=gap, ids=ids, **delivered.row(), **counted)
+    return Balance(
+        feature_class=name, facade=facade, gap=gap, ids=ids, placed=_placed(features, rows, places),
+        **delivered.row(), **counted,
+    )  # fmt: skip
+
+
+def _placed(features: FeatureList, rows: Flags, places: Placements | None) -> Placed:
+    if places is None or places.elsewhere:
+        return Placed()
+    lies, required, optional = places.lies, features.use == "required", features.use == "optional"
+    mine = rows & (lies != Listed.UNPLACED)
+
+    def ids(*states: Listed) -> tuple[str, ...]:
+        asked = mine & required & np.isin(lies, states)
+        return tuple(sorted(features.id[np.asarray(asked, dtype=bool)].tolist()))
+
+    return Placed(
+        required=int(np.count_nonzero(mine & required)), optional=int(np.count_nonzero(mine & optional)),
+        there=int(np.count_nonzero(mine & (lies == Listed.THERE))), absent=ids(Listed.ABSENT, Listed.OTHER),
+        other=ids(Listed.OTHER), unsure=ids(Listed.UNSURE),
+    )  # fmt: skip

@@ -36,6 +36,8 @@ def _balance(row: Balance, found: FoundFeatures) -> ClassBalance:
         feature_class=row.feature_class, facade=row.facade, state=_state(row, missing, surplus), required=row.required,
         optional=row.optional, found=row.deciding, missing=missing, surplus=surplus, ids=row.ids,
         rows=_rows(row, found), hidden=row.hidden, decision=row.decision,
+        only_counted=row.placed.required < row.required, absent=row.placed.absent, other=row.placed.other,
+        unsure=row.placed.unsure,
     )  # fmt: skip
 
 

@@ -4,10 +4,13 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from foparq.evaluate.balance import Balance, Incomparable, balances, decision_on
 from foparq.evaluate.comparable import doubtful
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Reason, because
+from foparq.findings.counts import FeatureCounts, Listed
 from foparq.model.statements import Decision
 from foparq.names import folded, of_kind
 from foparq.profile.elements import CommissionSpec, OmissionSpec
@@ -80,6 +83,22 @@ def interval(message: str, name: str, rows: Sequence[Balance], said: Mapping[str
     """
     named = [f"{row.label}: {row.counted[0]}–{row.counted[1]}" for row in rows]
     return because(message, classes=named[:10], n=len(named), ask=_asked(rows[0], name), **said)
+
+
+def placed(rows: Iterable[Balance], name: str) -> tuple[Reason, ...]:
+    """What is said of features that were looked for where they are listed, as remarks."""
+    absent = [id_ for row in rows for id_ in row.placed.absent]
+    return (because("features.absent", element=name, ids=absent[:20], n=len(absent)),) if absent else ()
+
+
+def elsewhere(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:
+    """Doubt that places of the list are those of another drawing: too few of them lie on anything."""
+    places = counts.placements
+    if places is None or not places.elsewhere:
+        return ()
+    known = places.lies != Listed.UNPLACED
+    n = int(np.count_nonzero(np.isin(places.lies, [Listed.THERE, Listed.UNSURE])))
+    return (because("features.elsewhere", element=name, n=n, total=int(np.count_nonzero(known))),)
 
 
 def _asked(row: Balance, element: str) -> str:

@@ -142,6 +142,9 @@ class ClassBalance:
     hidden: tuple[str, ...] = ()  #: layers of the class with items that nobody sees
     decision: Decision | None = None  #: by which a person settled how many are drawn
     only_counted: bool = True  #: which feature is missing is not known: one missing and one surplus cancel
+    absent: tuple[str, ...] = ()  #: ids of required features that are not where they are listed
+    other: tuple[str, ...] = ()  #: those of them in whose place another class is drawn
+    unsure: tuple[str, ...] = ()  #: ids of which linework does not decide
 
     @property
     def label(self) -> str:

@@ -50,6 +50,30 @@ def _left_out() -> Index:
     return np.empty(0, dtype=np.intp)
 
 
+class Listed(StrEnum):
+    """What stands where a feature of the list is looked for."""
+
+    UNPLACED = ""  #: the list gives no place, or a place for several
+    THERE = "there"
+    ABSENT = "absent"
+    OTHER = "other"  #: a feature of another class
+    UNSURE = "unsure"  #: what may be part of another feature, or several features in one
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Placements:
+    """Features of the list on the drawings, n rows as in the list."""
+
+    lies: Texts  #: (n,) value of :class:`Listed`
+    row: Index  #: (n,) outline that was assigned, or that of the other class; -1 if none
+
+    @property
+    def elsewhere(self) -> bool:
+        """Whether fewer than half of the places lie on anything of their class: the list speaks of another drawing."""
+        placed = self.lies != Listed.UNPLACED
+        return bool(2 * np.count_nonzero(np.isin(self.lies, [Listed.THERE, Listed.UNSURE])) < np.count_nonzero(placed))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FeatureCounts:
     """Delivered features by class and facade, n rows ordered by both.
@@ -66,6 +90,7 @@ class FeatureCounts:
     unmapped: tuple[tuple[str, int], ...] = ()  #: layers that no class is bound to, with their items: not assessed
     hidden: tuple[tuple[str, str, str], ...] = ()  #: class, facade and layer of items that nobody sees
     found: FoundFeatures = field(default_factory=FoundFeatures.none)  #: of which the counts are made
+    placements: Placements | None = None  #: of the list; ``None`` if it gives no places
 
     def __post_init__(self) -> None:
         for name, instead in (("most", "count"), ("pieces", "most")):

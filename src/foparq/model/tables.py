@@ -73,6 +73,15 @@ class FeatureList:
     evidence: Texts  #: (n,) what supports the accepted omission
     ignored: tuple[str, ...] = ()  #: columns of the file that no check uses
     skipped: tuple[Skipped, ...] = ()  #: what of the file is no row of it
+    #: (n, 3) X, Y, Z of a place on the feature, in axes of the drawing, metres; NaN where not given. Left out: none
+    place: Reals = field(default_factory=lambda: np.empty((0, 3)))
+    tol: Reals = field(default_factory=lambda: np.empty(0))  #: (n,) how far from it the feature may lie, metres; or NaN
+
+    def __post_init__(self) -> None:
+        n = len(self.id)
+        for name, missing in (("place", np.full((n, 3), np.nan)), ("tol", np.full(n, np.nan))):
+            if len(getattr(self, name)) != n:
+                object.__setattr__(self, name, missing)
 
     def required(self) -> Flags:
         """(n,) true where the contract demands the feature."""

@@ -177,6 +177,9 @@ def _balance(balance: ClassBalance, found: FoundFeatures) -> dict[str, Any]:
         },
         "only_counted": balance.only_counted,
         "ids": list(balance.ids),
+        "absent": list(balance.absent),
+        "other_class": list(balance.other),
+        "unsure": list(balance.unsure),
         "hidden_layers": list(balance.hidden),
         "decision": None if one is None else {
             "element": one.element, "counted": one.counted, "by": one.by, "reason": one.reason,

@@ -95,6 +95,9 @@ def _notes(words: Words, balance: ClassBalance) -> tuple[str, ...]:
     notes = []
     if (one := balance.decision) is not None:
         notes.append(words("report.balance.decided", by=one.by, counted=one.counted, reason=one.reason))
+    for name, ids in (("absent", balance.absent), ("other", balance.other), ("unsure", balance.unsure)):
+        if ids:
+            notes.append(words(f"report.balance.{name}", ids=_some(words, ids)))
     if balance.hidden:
         notes.append(words("report.balance.hidden", layers=list(balance.hidden)))
     return tuple(notes)

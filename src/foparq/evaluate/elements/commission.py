@@ -9,7 +9,7 @@ from foparq.evaluate.comparable import (
     uncounted,
     unmapped,
 )
-from foparq.evaluate.decisions import decided, interval
+from foparq.evaluate.decisions import decided, elsewhere, interval
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
@@ -75,6 +75,8 @@ def _judge(spec: CommissionSpec, evidence: Evidence, every: tuple[Balance, ...],
     known = [row for row in every if row.gap is Incomparable.NONE]
     surplus, required = sum(row.surplus for row in known), sum(row.required for row in known)
     gaps = gap_reasons(every, name, (Incomparable.UNLISTED, Incomparable.UNBOUND, Incomparable.FACADE))
+    if evidence.counts is not None:
+        gaps = (*gaps, *elsewhere(evidence.counts, name))
     worst = sorted((row for row in known if row.surplus), key=lambda row: (-row.surplus, row.label))
     fields: dict[str, object] = {
         "element": name, "surplus": surplus, "required": required, "limit": (limit, "1"),

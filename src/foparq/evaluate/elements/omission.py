@@ -9,7 +9,7 @@ from foparq.evaluate.comparable import (
     uncounted,
     unmapped,
 )
-from foparq.evaluate.decisions import decided, interval
+from foparq.evaluate.decisions import decided, elsewhere, interval, placed
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
@@ -66,7 +66,7 @@ def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
         parameters.append(("missing-least", float(least), "items"))
     if required:
         parameters.append(("net-rate", net / required, "1"))
-    remarks = (*decided(every, spec.id), *unmapped(counts, spec.id))
+    remarks = (*placed(known, spec.id), *decided(every, spec.id), *unmapped(counts, spec.id))
     made = element(
         spec, _MEASURE, judged(judgement.status, *judgement.why, *remarks), scope=scope, n=required,
         value=missing / required if required else None, limit=limit, comparison="<=", parameters=parameters,
@@ -82,6 +82,8 @@ def _judge(spec: OmissionSpec, evidence: Evidence, every: tuple[Balance, ...], l
     required, total = sum(row.required for row in known), sum(row.required for row in every)
     missing, net = sum(row.missing for row in known), sum(row.missing_net for row in known)
     gaps = gap_reasons(tuple(row for row in every if row.required), name, (Incomparable.UNBOUND, Incomparable.FACADE))
+    if evidence.counts is not None:
+        gaps = (*gaps, *elsewhere(evidence.counts, name))
     if not total:
         return judged(ElementStatus.NOT_ASSESSED, because("omission.nothing-required", element=name))
     if not required:

@@ -57,6 +57,8 @@ FEATURE_COLUMNS: Names = {
     "evidence": (
         "evidência", "prova", "comprovação", "justificativa", "evidencia", "prueba", "justificación",
     ),
+    **{axis: (f"{axis} referência", f"{axis} ref", f"posição {axis}", f"posición {axis}") for axis in "xyz"},
+    "tol": ("tolerância", "tolerancia", "tolerance", "raio", "radio", "radius"),
 }  # fmt: skip
 _USES: Names = {
     "required": (

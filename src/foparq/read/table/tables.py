@@ -16,6 +16,7 @@ from foparq.read.table.csv_text import is_workbook, read_text
 from foparq.read.table.extent import Extent, lengths_are_decimal, points_are_decimal
 from foparq.read.table.names import CHECKPOINT_COLUMNS, DISTANCE_COLUMNS, FEATURE_COLUMNS, unit_in_header, use_of
 from foparq.read.table.numbers import lengths_of, number_of
+from foparq.read.table.places import places_of
 from foparq.read.table.sheet import Asked, Sheet
 from foparq.read.table.signs import doubtful_cells, one_decimal_sign, thousands_fault
 from foparq.units import parse_length_unit
@@ -120,6 +121,8 @@ def read_distances(path: Path, section: SurveySection, extents: Sequence[Extent]
 def read_feature_list(path: Path, section: TableSection | None = None) -> FeatureList:
     """Specified features of a table with columns ``id, class, facade, count, use, omission_accepted, evidence``.
 
+    Places are in ``x, y, z, tol``: metres, in axes of the drawing.
+
     Parameters
     ----------
     path : Path
@@ -140,6 +143,7 @@ def read_feature_list(path: Path, section: TableSection | None = None) -> Featur
         unknown, or an accepted omission names no evidence.
     """
     sheet = _sheet(path, _FEATURES, section)
+    place, tol = places_of(sheet)
     use = [use_of(text) for text in sheet.texts("use")]
     accepted = [text.upper() for text in sheet.texts("omission_accepted")]
     evidence = sheet.texts("evidence")
@@ -162,6 +166,8 @@ def read_feature_list(path: Path, section: TableSection | None = None) -> Featur
         evidence=_column(evidence),
         ignored=sheet.ignored,
         skipped=sheet.skipped,
+        place=place,
+        tol=tol,
     )
 
 

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""Where a feature list says that its features are."""
+
+import numpy as np
+
+from foparq.columns import Reals
+from foparq.read.table.names import unit_in_header
+from foparq.read.table.numbers import lengths_of
+from foparq.read.table.sheet import Sheet
+from foparq.read.table.signs import one_decimal_sign
+from foparq.units import parse_length_unit
+
+_COLUMNS = ("x", "y", "z", "tol")
+
+
+def places_of(sheet: Sheet) -> tuple[Reals, Reals]:
+    """Places of features and how far from them these may lie.
+
+    Returns
+    -------
+    place : (n, 3) metres
+        In axes of the drawing; NaN where not given.
+    tol : (n,) metres
+        NaN where not given.
+
+    Raises
+    ------
+    UnreadableError
+        If a cell is no number, or both decimal signs occur.
+
+    Notes
+    -----
+    In metres, unless the name of a column carries another unit in brackets. Numbers with one sign and three digits are
+    taken for decimals: places that were meant in thousands lie on nothing, and prove nothing.
+    """
+    found = {}
+    for column in _COLUMNS:
+        said = unit_in_header(sheet.header[sheet.at[column]]) if column in sheet.at else ""
+        found[column] = lengths_of(sheet, column, parse_length_unit(said or "m"), required=False)[0]
+    one_decimal_sign(sheet, _COLUMNS)
+    return np.column_stack([found["x"], found["y"], found["z"]]), found["tol"]
