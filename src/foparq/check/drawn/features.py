@@ -18,9 +18,14 @@ from foparq.check.layers import matches
 from foparq.columns import Geometries, Index, Reals, Texts
 from foparq.findings.counts import FeatureCounts, FoundFeatures
 from foparq.geom.rounding import FARTHEST
-from foparq.model.drawing import Drawing
+from foparq.model.drawing import Drawing, SkippedReason
 from foparq.model.items import Role, holders_of
 from foparq.names import folded, of_kind
+
+#: entities that are no linework
+_NO_FEATURES = frozenset(
+    {"TEXT", "MTEXT", "ATTDEF", "DIMENSION", "LEADER", "MULTILEADER", "VIEWPORT", "POINT", "HATCH", "IMAGE"}
+)
 
 
 class _Outline(NamedTuple):
@@ -162,6 +167,18 @@ def _add(totals: _Totals, drawing: Drawing, gap: float) -> None:
         drawn_inserts = {place.feature for place in at} - {()}
         veiled = (place_of[row] for row in mine[~shown].tolist())
         totals.hidden |= {(key, facade, place.layer) for place in veiled if place.feature not in drawn_inserts}
+        totals.hidden |= {(key, facade, layer) for layer in _on_paper(drawing, key)}
+
+
+def _on_paper(drawing: Drawing, key: str) -> set[str]:
+    """Layers of a class with what may be features in paper space, which is not read."""
+    known: dict[str, str] = {}
+    layers = {
+        skipped.layer
+        for skipped in drawing.reading.skipped
+        if skipped.reason is SkippedReason.PAPER_SPACE and skipped.kind not in _NO_FEATURES
+    }
+    return {layer for layer in layers if _place(layer, "", drawing.classes, known).feature_class == key}
 
 
 def _bound_classes(drawing: Drawing) -> list[str]:
