@@ -37,7 +37,7 @@ def assert_open(done: Audit, message: str) -> None:
 
 
 def test_a_count_that_crashes(repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "count_features", crashing)
+    monkeypatch.setattr(module, "count_listed", crashing)
     done = audited(repository, tmp_path)
     assert_open(done, "features.crashed")
     assert "planted" in done.log[0]
@@ -46,7 +46,7 @@ def test_a_count_that_crashes(repository: Path, tmp_path: Path, monkeypatch: pyt
 def test_a_count_without_end(repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     profile = load_profile("et-doc-foparq-a")
     monkeypatch.setattr(module, "budget_of", lambda *_: module.Budget(1.0, 1.0, profile.limits.check_memory))
-    monkeypatch.setattr(module, "count_features", endless)
+    monkeypatch.setattr(module, "count_listed", endless)
     done = audited(repository, tmp_path)
     assert_open(done, "features.limit")
     assert done.log == ()

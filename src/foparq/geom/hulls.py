@@ -7,6 +7,7 @@ import shapely
 from foparq.columns import Flags, Geometries, Index, Reals
 
 _FIRST = 1000  #: hulls of the first step
+_FEW = 30  #: of the first step where each is compared with each
 #: Overlap over union of hulls that stand in one place. Two windows cannot.
 _SAME = 0.9
 _SLANT = 0.25  #: share of its box by which a hull may differ from one that it overlaps so far
@@ -129,8 +130,10 @@ def leaders(hulls: Geometries, group: Index, *, gap: float = 0.0) -> Index:
     lead = first[same.reshape(-1)]
     waiting = order[(lead[order] == order) & ~shapely.is_empty(hulls[order])]
     kept = np.empty(0, dtype=np.intp)
-    for start in range(0, len(waiting), _FIRST):
-        block = waiting[start : start + _FIRST]
+    start, step = 0, _FEW
+    while start < len(waiting):
+        # A small step first: of a crowd in one place all but a few are asked against their leader only.
+        block, start, step = waiting[start : start + step], start + step, min(2 * step, _FIRST)
         for one, other in zip(*_one_place(hulls, group, block, kept, gap), strict=True):
             if lead[one] == one:
                 lead[one] = other
