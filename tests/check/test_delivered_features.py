@@ -9,10 +9,24 @@ import numpy as np
 import pytest
 import shapely
 import shapely.affinity
-from tests.check.windows import FAIL, PASS, PLACES, UNDECIDED, counted, drawing, frame, interval, pane, read, verdicts
+from tests.check.windows import (
+    FAIL,
+    GAP,
+    PASS,
+    PLACES,
+    UNDECIDED,
+    counted,
+    drawing,
+    frame,
+    interval,
+    pane,
+    read,
+    verdicts,
+)
 from tests.evaluate.deliveries import drawn, judge, listed, messages, spec
 
-from foparq.model.drawing import Reading
+from foparq.check.drawn.features import count_features
+from foparq.model.drawing import DrawingUnit, Reading, UnitOrigin
 from foparq.model.items import Holder, Role, holders_of
 
 # --- loose linework --------------------------------------------------------------------------------------------------
