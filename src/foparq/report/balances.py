@@ -5,12 +5,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from foparq.evaluate.decisions import quoted
-from foparq.evaluate.quality import BalanceState, ClassBalance, QualityReport
+from foparq.evaluate.quality import BalanceState, ClassBalance, ElementStatus, QualityReport
 from foparq.findings.counts import FoundFeatures, Reading
 from foparq.report.words import Words, printable
 
 _LISTED = 60  #: ids of the list or of the drawing that people are shown
 
+_COUNTING = frozenset({"3", "7"})  #: measures of commission and omission
 #: states in which the numbers of list and drawing can be compared
 COMPARED = frozenset({BalanceState.EVEN, BalanceState.SHORT, BalanceState.OVER, BalanceState.OPEN})
 
@@ -107,15 +108,16 @@ def _decision(words: Words, balance: ClassBalance, quality: QualityReport) -> st
     """Lines of ``delivery.toml``; what a person must write is left empty, and refused as long as it is."""
     if not _may_differ(balance):
         return ""
-    ids = [element.id for element in quality.elements if element.measure_id in {"3", "7"}]
-    if not ids:
+    of_count = [element for element in quality.elements if element.measure_id in _COUNTING]
+    if not of_count:
         return ""
+    asking = next((one for one in of_count if one.status is ElementStatus.UNDECIDED), of_count[-1])
     low, high = balance.found
     facade = [f"facade = {quoted(balance.facade)}"] if balance.facade else []
     return "\n".join(
         [
             "[[decision]]",
-            f"element = {quoted(ids[-1])}",
+            f"element = {quoted(asking.id)}",
             f"class = {quoted(balance.feature_class)}",
             *facade,
             f"counted =   # {words('report.balance.between', low=low, high=high)}",
