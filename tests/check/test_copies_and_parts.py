@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from tests.check.windows import FAIL, PASS, PLACES, UNDECIDED, drawing, frame, interval, pane, read, verdicts
 
 from foparq.model.drawing import Drawing
-from foparq.model.items import Holder
+from foparq.model.items import Holder, Role
 
 # --- copies ----------------------------------------------------------------------------------------------------------
 
@@ -155,3 +155,26 @@ def test_windows_in_paper_space_may_be_the_missing_ones() -> None:
     paper = replace(thing, items=replace(thing.items, paper=np.array([False] * 10 + [True] * 10)))
     assert interval(paper) == (10, 10, 10)
     assert verdicts(paper) == (PASS, UNDECIDED)
+
+
+# --- areas, and drawings that were turned ----------------------------------------------------------------------------
+
+
+def test_copies_of_areas_count_once() -> None:
+    boxes = [shapely.box(x, y, x + 1, y + 1.5).wkt for x, y in PLACES[:15]]
+    aside = [shapely.box(x + 0.002, y, x + 1.002, y + 1.5).wkt for x, y in PLACES[:5]]
+    assert interval(drawing([*boxes, *boxes[:5], *aside], role=Role.AREA)) == (15, 15, 15)
+
+
+@pytest.mark.parametrize("angle", [17.0, 45.0, 90.0, 211.0])
+def test_a_turned_drawing_has_as_many_features(angle: float) -> None:
+    shapes = [
+        *(frame(*place) for place in PLACES[:10]), *(sill(*place) for place in PLACES[:4]),
+        *(frame(x + 0.003, y) for x, y in PLACES[4:6]), *(frame(x + 0.4, y) for x, y in PLACES[6:8]),
+        *(frame(*place, 0.2) for place in PLACES[8:10]), "LINESTRING (50 0, 50.2 0)",
+    ]  # fmt: skip
+    held = [*blocks(10), *[""] * 4, *(str(Holder(f"c{n}", "JANELA", "J")) for n in range(4)), *[""] * 3]
+    plain = interval(drawing(shapes, holders=held))
+    assert plain[0] == 10
+    turned = [shapely.affinity.rotate(shapely.from_wkt(one), angle, origin=(3, 7)).wkt for one in shapes]
+    assert interval(drawing(turned, holders=held)) == plain
