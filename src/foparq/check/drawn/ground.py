@@ -62,6 +62,17 @@ class Ground:
         """Linework on which places (n, 3) in metres, in the axes of the file, lie."""
         return footing(self.on_sheet(places), self.work, within=within, deep=self.deep)
 
+    def marked(self, places: Coordinates, within: Reals) -> Flags:
+        """(n,) whether an insert that bears a name stands at a place (n, 3), metres, in the axes of the file."""
+        labels = self.drawing.reading.labels
+        marks = labels.place[labels.block] * self.metres if labels is not None else np.empty((0, 3))
+        if not len(marks):
+            return np.zeros(len(places), dtype=bool)
+        axes = 3 if self.deep else 2
+        apart = self.on_sheet(places)[:, None, :axes] - self.on_sheet(marks)[None, :, :axes]
+        at: Flags = np.any(np.linalg.norm(apart, axis=2) <= within[:, None], axis=1)
+        return at
+
     def bearing(self, name: str) -> Coordinates | None:
         """The one place (3,) that bears a name, in the axes of the file, metres; ``None`` if none does, or several.
 
