@@ -39,7 +39,9 @@ def write_gpkg(office: Office, path: Path) -> None:
 def write_dxf(office: Office, path: Path) -> None:
     """Model space with the facade, dimensions, axes, marks; paper space with title block and viewport."""
     document = ezdxf.new(office.version)
-    if office.version != "R12":  # which has none
+    if office.version == "R12":  # which has none
+        document.header["$INSUNITS"] = 0
+    else:
         document.header["$INSUNITS"] = _HEADER[office.unit] if office.header is None else office.header
     model = document.modelspace()
     for number, part in enumerate(office.facade.parts):
