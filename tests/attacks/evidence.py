@@ -5,7 +5,6 @@ from dataclasses import replace
 
 import numpy as np
 import shapely
-
 from tests.attacks.kinds import TOLD, attack
 from tests.tools.facades import Facade, Part, facade
 from tests.tools.office_drawings import lines_of
@@ -158,13 +157,17 @@ def _long(office: Office, rng: np.random.Generator) -> Office:
     return office.change(measured=office.measured + longer, lengths=office.lengths + longer)
 
 
-@attack("lengths that are not those between their ends", "evidence.other-length", office={**TOLD, "ends_by": "checkpoints"})
+@attack(
+    "lengths that are not those between their ends", "evidence.other-length", office={**TOLD, "ends_by": "checkpoints"}
+)
 def _other_lengths(office: Office, rng: np.random.Generator) -> Office:
     other = rng.uniform(0.05, 3.0, len(office.lengths))
     return office.change(measured=office.measured + other, lengths=office.lengths + other)
 
 
-@attack("lengths that are not those between their places", "evidence.other-length", office={**TOLD, "ends_by": "places"})
+@attack(
+    "lengths that are not those between their places", "evidence.other-length", office={**TOLD, "ends_by": "places"}
+)
 def _other_places(office: Office, rng: np.random.Generator) -> Office:
     return _other_lengths(office, rng)
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-
 from tests.tools.offices import Office
 
 Change = Callable[[Office, np.random.Generator], Office]

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-from foparq.audit import Audit
-from tests.attacks import evidence  # noqa: F401 - enters its attacks
+from tests.attacks import evidence, repetition, statements  # noqa: F401 - enter their attacks
 from tests.attacks.kinds import ATTACKS, Attack
 from tests.tools.offices import office
 from tests.tools.sound import audited
+
+from foparq.audit import Audit
 
 
 def reasons(done: Audit) -> set[str]:

@@ -125,14 +125,18 @@ def _untied(evidence: Evidence, name: str) -> tuple[Reason, ...]:
 def _absent(points: Checkpoints, ties: PointTies, name: str) -> tuple[Reason, ...]:
     absent = ties.lies == Lies.ABSENT
     if not absent.any():
-        return ()
+        return () if ties.cause is None else (_of_all(points, ties, ties.cause, name),)
     gaps = ties.gap[absent & np.isfinite(ties.gap)]
     least, most = (float(gaps.min()), float(gaps.max())) if len(gaps) else (np.nan, np.nan)
     said = {"total": len(points.id), "least": (least, "m"), "most": (most, "m")}
     why = [_naming("evidence.absent", name, points.id[absent], **said)]
     if ties.cause is not None:
-        why.insert(0, _explained(ties.cause, ties.near, name, int(np.isfinite(points.delivered).all(axis=1).sum())))
+        why.insert(0, _of_all(points, ties, ties.cause, name))
     return tuple(why)
+
+
+def _of_all(points: Checkpoints, ties: PointTies, cause: Cause, name: str) -> Reason:
+    return _explained(cause, ties.near, name, int(np.isfinite(points.delivered).all(axis=1).sum()))
 
 
 _CAUSES = {
