@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import shapely
-from tests.attacks.kinds import TOLD, attack
-from tests.tools.facades import Facade, Part, facade
+from tests.attacks.kinds import BY_ID, BY_NAME, BY_PLACE, TOLD, attack
+from tests.tools.facades import facade
 from tests.tools.office_drawings import lines_of
 from tests.tools.offices import FRAMES, METRES, Office
 
@@ -54,13 +54,13 @@ def _exchanged_untold(office: Office, rng: np.random.Generator) -> Office:
 
 
 @attack("mirrored left to right", "evidence.cause-mirror-right")
-def _mirrored(office: Office, rng: np.random.Generator) -> Office:
+def _mirrored(office: Office, _: np.random.Generator) -> Office:
     width = office.facade.width
     return redrawn(office, lambda spots: np.array([width, 0, 0]) + spots * [-1, 1, 1])
 
 
 @attack("mirrored top to bottom", "evidence.cause-mirror-up")
-def _upside_down(office: Office, rng: np.random.Generator) -> Office:
+def _upside_down(office: Office, _: np.random.Generator) -> Office:
     height = office.facade.height
     return redrawn(office, lambda spots: np.array([0, height, 0]) + spots * [1, -1, 1])
 
@@ -147,29 +147,22 @@ def _axes(office: Office, rng: np.random.Generator) -> Office:
 
 
 @attack("northing and easting exchanged", "evidence.cause-axes")
-def _north(office: Office, rng: np.random.Generator) -> Office:
+def _north(office: Office, _: np.random.Generator) -> Office:
     return _columns(office, [1, 0, 2])
 
 
-@attack("distances of 500 m", "evidence.too-long", office={**TOLD, "ends_by": "names"})
+@attack("distances of 500 m", "evidence.too-long", office=BY_NAME)
 def _long(office: Office, rng: np.random.Generator) -> Office:
     longer = 500 + rng.uniform(0, 20, len(office.lengths))
     return office.change(measured=office.measured + longer, lengths=office.lengths + longer)
 
 
-@attack(
-    "lengths that are not those between their ends", "evidence.other-length", office={**TOLD, "ends_by": "checkpoints"}
-)
+@attack("lengths that are not those between their ends", "evidence.other-length", office=BY_ID)
 def _other_lengths(office: Office, rng: np.random.Generator) -> Office:
     other = rng.uniform(0.05, 3.0, len(office.lengths))
     return office.change(measured=office.measured + other, lengths=office.lengths + other)
 
 
-@attack(
-    "lengths that are not those between their places", "evidence.other-length", office={**TOLD, "ends_by": "places"}
-)
+@attack("lengths that are not those between their places", "evidence.other-length", office=BY_PLACE)
 def _other_places(office: Office, rng: np.random.Generator) -> Office:
     return _other_lengths(office, rng)
-
-
-__all__ = ["Facade", "Part"]

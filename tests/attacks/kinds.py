@@ -12,6 +12,9 @@ Change = Callable[[Office, np.random.Generator], Office]
 
 #: drawings in space or flat whose table gives the delivered coordinates, all of corners
 TOLD: Mapping[str, Any] = {"told": True, "targets": ""}
+BY_ID: Mapping[str, Any] = {**TOLD, "ends_by": "checkpoints"}
+BY_PLACE: Mapping[str, Any] = {**TOLD, "ends_by": "places"}
+BY_NAME: Mapping[str, Any] = {**TOLD, "ends_by": "names"}
 DXF: Mapping[str, Any] = {**TOLD, "format": "dxf"}
 
 
@@ -21,7 +24,7 @@ class Attack:
 
     name: str
     change: Change
-    verdict: str = "undecided"
+    verdict: str = "undecided"  #: or ``accepted``, ``rejected``, ``not accepted``: undecided or rejected
     says: tuple[str, ...] = ()  #: messages one of which must be among the reasons
     office: Mapping[str, Any] = field(default_factory=lambda: TOLD)  #: wishes for the delivery that is attacked
     variants: int = 10

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Attacks by repetition, and by copying the survey."""
 
-from pathlib import Path
-
 import numpy as np
 from tests.attacks.kinds import TOLD, attack
-from tests.tools.offices import FRAMES, Office
+from tests.tools.offices import FRAMES, STYLES, Office
 
-FINE = {**TOLD, "table_unit": "m", "digits": 4, "scale": 50}
-BY_NAME = {**FINE, "ends_by": "names"}
+FINE = {**TOLD, "table_unit": "m", "digits": 4, "scale": 50, "style": STYLES[0]}
+NAMED, PLACED = {**FINE, "ends_by": "names"}, {**FINE, "ends_by": "places"}
 
 
 def _points(office: Office, ids: list[str], surveyed: np.ndarray, drawn: np.ndarray) -> Office:
@@ -63,7 +61,7 @@ def _thirty(office: Office, names: list[tuple[str, str]], rows: list[tuple[int, 
 
 
 @attack("one distance thirty times", "relative.fail", verdict="rejected", office={**FINE, "ends_by": "checkpoints"})
-def _same_ends(office: Office, rng: np.random.Generator) -> Office:
+def _same_ends(office: Office, _: np.random.Generator) -> Office:
     return _thirty(office, [office.ends[4]] * 30, [office.rows[4]] * 30)
 
 
@@ -71,7 +69,7 @@ def _same_ends(office: Office, rng: np.random.Generator) -> Office:
     "one distance thirty times, ends exchanged", "relative.fail", verdict="rejected",
     office={**FINE, "ends_by": "checkpoints"},
 )  # fmt: skip
-def _swapped(office: Office, rng: np.random.Generator) -> Office:
+def _swapped(office: Office, _: np.random.Generator) -> Office:
     (a, b), (i, j) = office.ends[4], office.rows[4]
     return _thirty(office, [(a, b), (b, a)] * 15, [(i, j), (j, i)] * 15)
 
@@ -80,14 +78,14 @@ def _swapped(office: Office, rng: np.random.Generator) -> Office:
     "one distance thirty times between places",
     "relative.fail",
     verdict="rejected",
-    office={**FINE, "ends_by": "places"},
+    office=PLACED,
 )
-def _same_places(office: Office, rng: np.random.Generator) -> Office:
+def _same_places(office: Office, _: np.random.Generator) -> Office:
     return _thirty(office, [(f"a{n}", f"b{n}") for n in range(30)], [office.rows[4]] * 30)
 
 
-@attack("one distance thirty times under invented names", "relative.fail", verdict="rejected", office=BY_NAME)
-def _invented(office: Office, rng: np.random.Generator) -> Office:
+@attack("one distance thirty times under invented names", "relative.fail", verdict="rejected", office=NAMED)
+def _invented(office: Office, _: np.random.Generator) -> Office:
     return _thirty(office, [(f"a{n}", f"b{n}") for n in range(30)], [])
 
 
@@ -96,12 +94,12 @@ def _copied(office: Office, surveyed: np.ndarray) -> Office:
 
 
 @attack("delivered equal to surveyed", "evidence.too-good", office=FINE)
-def _equal(office: Office, rng: np.random.Generator) -> Office:
+def _equal(office: Office, _: np.random.Generator) -> Office:
     return _copied(office, office.drawn.copy())
 
 
 @attack("delivered equal to surveyed, to the millimetre", "evidence.too-good", office={**FINE, "n": 9})
-def _rounded(office: Office, rng: np.random.Generator) -> Office:
+def _rounded(office: Office, _: np.random.Generator) -> Office:
     return _copied(office, np.round(office.drawn, 3))
 
 
@@ -113,12 +111,9 @@ def _one_axis(office: Office, rng: np.random.Generator) -> Office:
 
 
 @attack("seven points to 1.1 mm with a survey of 3 mm", "evidence.good", verdict="accepted", office={**FINE, "n": 7})
-def _paper(office: Office, rng: np.random.Generator) -> Office:
+def _paper(office: Office, _: np.random.Generator) -> Office:
     """What Campos et al. 2015 report of their Y: luck, or a survey better than stated, and no fault."""
     surveyed = office.surveyed.copy()
     errors = (office.surveyed - office.drawn)[:, 1]
     surveyed[:, 1] = office.drawn[:, 1] + errors * 0.0011 / np.sqrt(np.mean(errors**2))
     return office.change(surveyed=surveyed, survey_sd=0.003)
-
-
-__all__ = ["Path"]

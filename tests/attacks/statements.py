@@ -8,7 +8,7 @@ import numpy as np
 import pyogrio
 import shapely
 from tests.attacks.evidence import IN_SPACE
-from tests.attacks.kinds import DXF, TOLD, attack
+from tests.attacks.kinds import BY_ID, BY_NAME, DXF, TOLD, attack
 from tests.tools.offices import METRES, Office
 
 _UNIT = ("checks.unit-contradicted", "features.unit-contradicted")
@@ -27,15 +27,13 @@ def _table(office: Office, rng: np.random.Generator) -> Office:
     return office.state("checkpoints", unit=other).state("distances", unit=other)
 
 
-@attack("unit of the distances wrong", "evidence.distance-factor", office={**TOLD, "ends_by": "checkpoints"})
+@attack("unit of the distances wrong", "evidence.distance-factor", office=BY_ID)
 def _distances(office: Office, rng: np.random.Generator) -> Office:
     return office.state("distances", unit=_other(office.table_unit, rng))
 
 
-@attack(
-    "unit of distances by name wrong", "evidence.too-long", "evidence.too-short", office={**TOLD, "ends_by": "names"}
-)
-def _named_distances(office: Office, rng: np.random.Generator) -> Office:
+@attack("unit of distances by name wrong", "evidence.too-long", "evidence.too-short", office=BY_NAME)
+def _named_distances(office: Office, _: np.random.Generator) -> Office:
     return office.state("distances", unit="mm" if office.table_unit == "m" else "m")
 
 
@@ -82,7 +80,7 @@ def _stray(office: Office, folder: Path) -> None:
     "a stray line 250 units away, and a wrong unit", *_UNIT,
     office={**MODERN, "unit": "m", "lettering": ""},
 )  # fmt: skip
-def _with_stray(office: Office, rng: np.random.Generator) -> Office:
+def _with_stray(office: Office, _: np.random.Generator) -> Office:
     # Without the table its word is missing: extent and header are left.
     return office.change(tamper=(_stray,)).state("drawing", unit="mm").state("checkpoints", path=None)
 
@@ -117,15 +115,15 @@ def _other_scale(office: Office, rng: np.random.Generator) -> Office:
 @attack(
     "title block alone at another scale", "scale.contradicted", verdict="accepted", office={**MODERN, "title": True}
 )
-def _title(office: Office, rng: np.random.Generator) -> Office:
+def _title(office: Office, _: np.random.Generator) -> Office:
     return office.change(title_scale=500.0)
 
 
 @attack(
     "two drawings with the same coordinates in inches and centimetres", office={**DXF, "unit": "cm", "lettering": ""}
 )
-def _inches(office: Office, rng: np.random.Generator) -> Office:
-    def copied(office: Office, folder: Path) -> None:
+def _inches(office: Office, _: np.random.Generator) -> Office:
+    def copied(_: Office, folder: Path) -> None:
         (folder / "andar2.dxf").write_bytes((folder / "fachada.dxf").read_bytes())
 
     second = {"path": "andar2.dxf", "unit": "in", "plane": office.plane, "facade": "S"}
@@ -133,7 +131,7 @@ def _inches(office: Office, rng: np.random.Generator) -> Office:
 
 
 def _geographic(move: np.ndarray, spread: float) -> object:
-    def rewritten(office: Office, folder: Path) -> None:
+    def rewritten(_: Office, folder: Path) -> None:
         path = folder / "fachada.gpkg"
         for layer in pyogrio.list_layers(path)[:, 0]:
             _, _, geometry, _ = pyogrio.raw.read(path, layer=layer)
@@ -152,10 +150,10 @@ FLAT_MAP = {**TOLD, "plane": "xy", "format": "gpkg", "unit": "m"}
 
 
 @attack("EPSG:4326 with x = 1389", "checks.crs-unfit", "features.crs-unfit", office=FLAT_MAP)
-def _unfit(office: Office, rng: np.random.Generator) -> Office:
+def _unfit(office: Office, _: np.random.Generator) -> Office:
     return office.change(tamper=(_geographic(np.array([1389.0, 500.0]), 1.0),)).state("drawing", unit=None)
 
 
 @attack("degrees", "checks.unit-angle", "features.unit-angle", office=FLAT_MAP)
-def _degrees(office: Office, rng: np.random.Generator) -> Office:
+def _degrees(office: Office, _: np.random.Generator) -> Office:
     return office.change(tamper=(_geographic(np.array([-46.6, -23.5]), 1e-5),)).state("drawing", unit=None)

@@ -135,8 +135,10 @@ def _dimensions(office: Office, model: Any) -> None:
         length = (b - a) / METRES[office.lettering]
         text = f"{length:.2f}".replace(".", ",") if office.lettering == "m" else f"{length:.0f}"
         style = {"dimtxt": 0.1 / METRES[office.unit], "dimasz": 0.1 / METRES[office.unit]}
+        # CAD writes what it measured; ezdxf does not, and measures zero across the x axis.
+        attributes = {"layer": "COTAS", "actual_measurement": (b - a) / METRES[office.unit]}
         model.add_linear_dim(
-            base=base, p1=first, p2=second, text=text, override=style, dxfattribs={"layer": "COTAS"}
+            base=base, p1=first, p2=second, text=text, override=style, dxfattribs=attributes
         ).render(ucs=ucs)  # fmt: skip
 
 

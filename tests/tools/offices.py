@@ -2,9 +2,9 @@
 """Sound deliveries as small offices send them, made from a seed, with everything that is true of them beside.
 
 ``office(seed)`` draws a facade, surveys it and fills the tables; ``office_files.write`` makes a folder of it.
-Lengths are metres, places in the axes of the file. Delivered coordinates are those of the drawing; the survey differs from them
-by the errors of both, drawn from normal distributions, drawn again where the specification's own test of trend, which
-rejects one faultless axis in twenty, would reject them.
+Lengths are metres, places in the axes of the file. Delivered coordinates are those of the drawing; the survey differs
+from them by the errors of both, drawn from normal distributions, drawn again where the specification's own test of
+trend, which rejects one faultless axis in twenty, would reject them.
 """
 
 from dataclasses import dataclass, field, replace

@@ -80,7 +80,7 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
     -------
     PointTies, n rows
         Of several drawings the nearest counts. If more than half of the points are absent, the cause that would put
-        all of them on one drawing; so if more than half are absent or within a line, and a cause would put all at vertices.
+        all of them on one drawing; if more than half are absent or within a line, that which would put all at vertices.
     """
     n = len(points.id)
     lies, gap = np.full(n, str(Lies.ABSENT), dtype=object), np.full(n, np.inf)

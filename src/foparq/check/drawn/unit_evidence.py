@@ -182,22 +182,28 @@ def _row_of(drawing: Drawing, chain: str) -> int:
 def _implausible(drawing: Drawing, metres: float, largest: float) -> float | None:
     """Metres across, if no building is; ``None`` if one could be."""
     seen = drawing.visible_rows() & np.isin(drawing.items.role, [Role.LINE, Role.AREA])
-    boxes = shapely.bounds(drawing.items.geometry[seen])
-    raised = [geometry for geometry in drawing.items.geometry[seen] if geometry is not None and shapely.has_z(geometry)]
-    boxes = boxes[np.isfinite(boxes).all(axis=1)]
+    boxes = _boxes(drawing.items.geometry[seen])
     if len(boxes) == 0:
         return None
-    heights = shapely.get_coordinates(np.array(raised, dtype=object), include_z=True)[:, 2] if raised else np.zeros(1)
-    heights = heights[np.isfinite(heights)]
-    depth = np.ptp(heights) if len(heights) else 0.0
-    together = max(*(_span(boxes[:, axis], boxes[:, axis + 2]) for axis in (0, 1)), depth) * metres
+    together = max(_span(boxes[:, axis], boxes[:, axis + 3]) for axis in range(3)) * metres
     if together == 0:
         return None
     if together < _SMALLEST:
         return float(together)
-    middle = np.quantile(boxes[:, 2:], 0.9, axis=0) - np.quantile(boxes[:, :2], 0.1, axis=0)
+    middle = np.quantile(boxes[:, 3:], 0.9, axis=0) - np.quantile(boxes[:, :3], 0.1, axis=0)
     spread = float(np.max(middle)) * metres
     return spread if spread > largest else None
+
+
+def _boxes(geometry: Geometries) -> Reals:
+    """(n, 6) lower and upper corners of items whose coordinates are numbers; a missing depth is zero."""
+    corners, item = shapely.get_coordinates(geometry, include_z=True, return_index=True)
+    corners[:, 2] = np.nan_to_num(corners[:, 2], posinf=np.inf, neginf=-np.inf)
+    low, high = np.full((len(geometry), 3), np.inf), np.full((len(geometry), 3), -np.inf)
+    np.minimum.at(low, item, corners)
+    np.maximum.at(high, item, corners)
+    boxes: Reals = np.hstack([low, high])
+    return boxes[np.isfinite(boxes).all(axis=1)]
 
 
 def _span(low: Reals, high: Reals) -> float:

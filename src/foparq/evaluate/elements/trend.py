@@ -12,7 +12,7 @@ from foparq.columns import Reals
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
-from foparq.evaluate.tied import tied_points
+from foparq.evaluate.tied import tied_points, too_small
 from foparq.model.tables import Checkpoints
 from foparq.profile.elements import AXES, TrendSpec
 
@@ -61,8 +61,10 @@ def _axis(spec: TrendSpec, points: Checkpoints, evidence: Evidence, axis: int) -
         )  # fmt: skip
     test = student_test(known, confidence=spec.confidence)
     judgement = _judge(id_, test, found, len(every), float(points.resolution[axis]))
-    if tied.doubts:
-        judgement = judged(ElementStatus.UNDECIDED, *tied.doubts)
+    good, gross = too_small(known, points.survey_sd, float(points.resolution[axis]), id_)
+    doubts = (*tied.doubts, *((good,) if good and gross else ()))
+    if doubts:
+        judgement = judged(ElementStatus.UNDECIDED, *doubts)
     remarks, extra = _normality(id_, known, spec.confidence)
     parameters = (
         ("mean", found.mean, "m"), ("sd", found.sd, "m"), ("n", float(found.n), "items"),
