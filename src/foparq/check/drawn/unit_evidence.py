@@ -20,8 +20,7 @@ _EXAMPLES = 5
 _STRETCH = 0.002  #: scale of a projection that no survey of a building could overlook
 _SMALLEST = 0.2  #: metres across that a drawing of a building has at least
 _LARGEST_DXF, _LARGEST_GIS = 500.0, 20_000.0  #: and at most: of a building, and of a town in a map
-_FAR = 3.0  #: strays lie farther from the drawing than it is wide, so many times
-_MOST = 0.8  #: share of the items that the drawing itself has at least
+_FAR = 1.0  #: strays reach farther from the middle of the drawing than this is wide, so many times
 _FEW = 0.05  #: and are no larger share of the items; one item always may be
 _VAGUE = 0.5  #: weight of what is merely implausible
 _MATCH = 0.02  #: relative difference of a lettered number to the measured length in another unit
@@ -185,7 +184,7 @@ def _implausible(drawing: Drawing, metres: float, largest: float) -> float | Non
     boxes = _boxes(drawing.items.geometry[seen])
     if len(boxes) == 0:
         return None
-    together = max(_span(boxes[:, axis], boxes[:, axis + 3]) for axis in range(3)) * metres
+    together = _extent(boxes) * metres
     if together == 0:
         return None
     if together < _SMALLEST:
@@ -206,16 +205,11 @@ def _boxes(geometry: Geometries) -> Reals:
     return boxes[np.isfinite(boxes).all(axis=1)]
 
 
-def _span(low: Reals, high: Reals) -> float:
-    """Extent of intervals along one axis, without the few that lie far from all others."""
-    order = np.argsort(low, kind="stable")
-    low, reach = low[order], np.maximum.accumulate(high[order])
-    starts = np.concatenate([[0], np.flatnonzero(low[1:] > reach[:-1]) + 1])
-    count = np.diff([*starts, len(low)])
-    main = int(np.argmax(count))
-    ends = np.maximum.reduceat(high[order], starts)
-    first, last = low[starts[main]], ends[main]
-    near = _FAR * (last - first)
-    few = max(1.0, _FEW * len(low)) if count[main] >= _MOST * len(low) else 0.0
-    kept = (count > few) | ((low[starts] <= last + near) & (ends >= first - near))
-    return float(ends[kept].max() - low[starts][kept].min())
+def _extent(boxes: Reals) -> float:
+    """Largest extent along an axis, without the few items that reach far beyond the middle of all others."""
+    low = np.quantile(boxes[:, :3], 0.1, axis=0, method="higher")
+    high = np.quantile(boxes[:, 3:], 0.9, axis=0, method="lower")
+    far = _FAR * max(0.0, float(np.max(high - low)))
+    stray = np.any((boxes[:, 3:] > high + far) | (boxes[:, :3] < low - far), axis=1)
+    kept = boxes[~stray] if np.count_nonzero(stray) <= max(1.0, _FEW * len(boxes)) else boxes
+    return float(np.max(kept[:, 3:].max(axis=0) - kept[:, :3].min(axis=0))) if len(kept) else 0.0

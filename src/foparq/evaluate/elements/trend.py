@@ -62,9 +62,10 @@ def _axis(spec: TrendSpec, points: Checkpoints, evidence: Evidence, axis: int) -
     test = student_test(known, confidence=spec.confidence)
     judgement = _judge(id_, test, found, len(every), float(points.resolution[axis]))
     good, gross = too_small(known, points.survey_sd, float(points.resolution[axis]), id_)
-    doubts = (*tied.doubts, *((good,) if good and gross else ()))
-    if doubts:
-        judgement = judged(ElementStatus.UNDECIDED, *doubts)
+    if good and gross and judgement.status is ElementStatus.FAIL:  # what was copied has the trend of its rounding
+        judgement = judged(ElementStatus.UNDECIDED, good)
+    if tied.doubts:
+        judgement = judged(ElementStatus.UNDECIDED, *tied.doubts)
     remarks, extra = _normality(id_, known, spec.confidence)
     parameters = (
         ("mean", found.mean, "m"), ("sd", found.sd, "m"), ("n", float(found.n), "items"),
