@@ -24,7 +24,7 @@ class Attack:
 
     name: str
     change: Change
-    verdict: str = "undecided"  #: or ``accepted``, ``rejected``, ``not accepted``: undecided or rejected
+    verdict: str = "undecided"  #: or ``accepted``, ``rejected``
     says: tuple[str, ...] = ()  #: messages one of which must be among the reasons
     office: Mapping[str, Any] = field(default_factory=lambda: TOLD)  #: wishes for the delivery that is attacked
     variants: int = 10

@@ -56,10 +56,9 @@ def _against_lettering(office: Office, rng: np.random.Generator) -> Office:
 
 
 @attack(
-    "unit of the drawing wrong, against the tables alone",
-    "evidence.cause-unit",
+    "unit of the drawing wrong, against the tables alone", *_UNIT,
     office={**MODERN, "lettering": "", "header": 0},
-)
+)  # fmt: skip
 def _tables_alone(office: Office, rng: np.random.Generator) -> Office:
     return office.state("drawing", unit=_other(office.unit, rng, ("m", "cm", "in", "ft")))
 

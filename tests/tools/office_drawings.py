@@ -134,6 +134,7 @@ def _dimensions(office: Office, model: Any) -> None:
         )
         length = (b - a) / METRES[office.lettering]
         text = f"{length:.2f}".replace(".", ",") if office.lettering == "m" else f"{length:.0f}"
+        text += office.letter_suffix
         style = {"dimtxt": 0.1 / METRES[office.unit], "dimasz": 0.1 / METRES[office.unit]}
         # CAD writes what it measured; ezdxf does not, and measures zero across the x axis.
         attributes = {"layer": "COTAS", "actual_measurement": (b - a) / METRES[office.unit]}

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Differences of the tables as far as the drawings bear them out."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,7 @@ from foparq.findings.because import Because
 from foparq.findings.ties import DistanceTies, Ends, Lies, PointTies
 from foparq.match.causes import Cause
 from foparq.model.tables import Checkpoints, Distances
+from foparq.names import folded
 from foparq.profile.elements import AXES
 
 _SHOWN = 10  #: ids that a reason names
@@ -75,6 +77,7 @@ def tied_distances(distances: Distances, evidence: Evidence, name: str) -> Tied:
     remarks = []
     if len(repeated):
         remarks.append(_naming("evidence.repeated-distances", name, distances.id[repeated], kept=len(rows)))
+    ties = replace(ties, ends=_without_confirmed(distances, evidence, ties))
     names = ties.ends == Ends.NAMES
     if names.any():
         remarks.append(because("evidence.names-only", element=name, n=int(names.sum()), total=len(distances.id)))
@@ -154,6 +157,19 @@ def _explained(cause: Cause, file: str, name: str, n: int) -> Reason:
     return because(
         message, element=name, n=n, file=file, axes=axes, factor=f"{cause.factor:.6g}", right=right, up=up, depth=depth
     )
+
+
+def _without_confirmed(distances: Distances, evidence: Evidence, ties: DistanceTies) -> Texts:
+    """(n,) ends of distances; one at a checkpoint that a person confirms not to be drawn is a name only."""
+    points, there = evidence.delivery.checkpoints, evidence.ties.points if evidence.ties else None
+    if points is None or there is None or evidence.confirmation("checkpoints", NOT_DRAWN) is None:
+        return ties.ends
+    stereo = {folded(str(name)) for name in points.id[there.lies == Lies.ABSENT]}
+    ends = ties.ends.copy()
+    for row in np.flatnonzero(ends == Ends.ABSENT).tolist():
+        if {folded(str(distances.start[row])), folded(str(distances.end[row]))} & stereo:
+            ends[row] = str(Ends.NAMES)
+    return ends
 
 
 _DISTANCE_DOUBTS = {
