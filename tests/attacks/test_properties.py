@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-
-from foparq.evaluate.quality import QualityReport
 from tests.attacks import evidence, repetition, statements  # noqa: F401 - enter their attacks
 from tests.attacks.kinds import ATTACKS
 from tests.tools.offices import Office, office
 from tests.tools.sound import audited
+
+from foparq.evaluate.quality import QualityReport
 
 KINDS = {kind.name: kind for kind in ATTACKS}
 #: attacks that concern the whole drawing: no choice of rows makes them sound

@@ -25,12 +25,12 @@ def unguarded() -> Iterator[None]:
     def straight(function: Any, *args: Any, **_: Any) -> Any:
         return function(*args)
 
-    def rules(function: Any, args: tuple[Any, ...], _: Any) -> Any:
+    def stream(function: Any, args: tuple[Any, ...], **_: Any) -> Any:
         return function(*args)
 
     with (
-        patch("foparq.audit.guarded", straight), patch("foparq.read.delivery.guarded", straight),
-        patch("foparq.audit._in_child", rules), warnings.catch_warnings(),
+        patch("foparq.read.delivery.guarded", straight), patch("foparq.audit.streamed", stream),
+        warnings.catch_warnings(),
     ):  # fmt: skip
         warnings.simplefilter("ignore")
         yield
