@@ -24,6 +24,7 @@ def lines_of(office: Office, part: Part) -> list[np.ndarray]:
 
 def write_gpkg(office: Office, path: Path) -> None:
     """One table a layer, every line a feature; closed lines stay lines."""
+    pyogrio.set_gdal_config_options({"OGR_SQLITE_SYNCHRONOUS": "OFF"})  # nothing is lost if a test folder is
     rows = [(office.layers[part.kind], line) for part in office.facade.parts for line in lines_of(office, part)]
     rows += [(_AXES, line) for line, _, _ in _grid(office)]
     for layer in dict.fromkeys(layer for layer, _ in rows):

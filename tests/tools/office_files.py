@@ -88,7 +88,7 @@ def manifest(office: Office, drawing: str) -> str:
         "distances": {"path": "distancias.csv", "survey_sd": _mm(office.distance_sd), "unit": office.table_unit},
         "features": {"path": "feicoes.csv"},
     }  # fmt: skip
-    classes = {layer: kind for kind, layer in (office.class_layers or office.layers).items() if kind != "wall"}
+    classes = {layer: kind for kind, layer in office.layers.items() if kind != "wall"}
     lines: list[str] = []
     for section, values in said.items():
         if office.stated.get(section, {}).get("path", "") is None:

@@ -96,7 +96,6 @@ class Office:
     header: int | None = None  #: $INSUNITS, if not that of the unit
     view_scale: float | None = None  #: of the viewport, if not the stated one
     title_scale: float | None = None
-    class_layers: dict[str, str] | None = None  #: as the manifest writes them, if not as the drawing does
     letter_suffix: str = ""  #: behind the numbers of dimensions
 
     @property
