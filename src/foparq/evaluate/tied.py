@@ -109,6 +109,19 @@ def too_small(found: Reals, survey_sd: float | None, resolution: float, name: st
     return because("evidence.too-good" if gross else "evidence.good", element=name, **fields), gross
 
 
+def resolution_of(points: Checkpoints, evidence: Evidence, axis: int) -> float:
+    """Half the last printed digits of surveyed plus delivered coordinates of one axis, metres.
+
+    What is printed of delivered coordinates that are those of vertices was not rounded by more than it differs from
+    them, however few digits round numbers show.
+    """
+    printed, resolution = float(points.printed[axis]), float(points.resolution[axis])
+    ties = evidence.ties.points if evidence.ties else None
+    if ties is None or not len(ties.corner) or ties.unchecked[axis]:
+        return resolution
+    return resolution - max(0.0, printed - float(ties.corner.max()))
+
+
 def unchecked(evidence: Evidence, axis: int, name: str) -> tuple[Reason, ...]:
     """Remark that a flat drawing says nothing of an axis."""
     ties = evidence.ties.points if evidence.ties else None

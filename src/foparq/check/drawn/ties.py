@@ -83,7 +83,7 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
         all of them on one drawing; if more than half are absent or within a line, that which would put all at vertices.
     """
     n = len(points.id)
-    lies, gap = np.full(n, str(Lies.ABSENT), dtype=object), np.full(n, np.inf)
+    lies, gap, corner = np.full(n, str(Lies.ABSENT), dtype=object), np.full(n, np.inf), np.full(n, np.inf)
     names = {name: np.full(n, "", dtype=object) for name in ("drawing", "item", "layer")}
     delivered, compared = points.delivered.copy(), np.zeros((n, 3), dtype=bool)
     untold = np.isnan(points.delivered).all(axis=1)
@@ -100,10 +100,12 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
         gap = np.where(on | absent, np.minimum(gap, found.distance), gap)
         lies[on] = np.where(found.vertex[on] <= within[on], str(Lies.VERTEX), str(Lies.LINEWORK))
         lies[on & untold] = str(Lies.TAKEN_VERTEX)
+        corner[on] = np.where(found.vertex[on] <= near.tie, found.vertex[on], np.inf)
         names["item"][on], names["layer"][on] = ground.item[found.line[on]], ground.layer[found.line[on]]
         apart = _apart(ground, places, bearing)
         at_name = absent & ~on & (apart <= within)
         lies[at_name], gap[at_name] = str(Lies.NAMED), apart[at_name]
+        corner[at_name] = np.where(apart[at_name] <= near.tie, apart[at_name], np.inf)
         lies[by_name] = str(Lies.TAKEN_NAMED)
         on |= at_name | by_name
         delivered[on & untold] = places[on & untold]
@@ -116,7 +118,7 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
     cause, drawing = _cause(points.delivered, lies, grounds, within)
     return PointTies(
         lies=lies, gap=gap, **names, delivered=delivered, group=repeats(points.surveyed, apart=near.apart),
-        unchecked=~seen, cause=cause, near=drawing,
+        corner=corner, unchecked=~seen, cause=cause, near=drawing,
     )  # fmt: skip
 
 

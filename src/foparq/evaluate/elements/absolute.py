@@ -11,7 +11,7 @@ from foparq.evaluate.evidence import Evidence, element, judged, limit_of
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters, with_doubts
-from foparq.evaluate.tied import tied_points, unchecked
+from foparq.evaluate.tied import resolution_of, tied_points, unchecked
 from foparq.profile.elements import AXES, AbsoluteSpec
 
 
@@ -39,7 +39,7 @@ def _axis(spec: AbsoluteSpec, evidence: Evidence, axis: int) -> Element:
             method="directExternal",
         )  # fmt: skip
     tied = tied_points(points, evidence, id_)
-    resolution = float(points.resolution[axis])
+    resolution = resolution_of(points, evidence, axis)
     sample = Sample(
         kind="absolute", id=id_, all=tied.differences[:, axis], resolution=resolution, survey_sd=points.survey_sd
     )
