@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import shapely
-from tests.attacks.kinds import BY_ID, BY_NAME, BY_PLACE, TOLD, attack
+from tests.attacks.kinds import BY_ID, BY_PLACE, CLEAR, TOLD, attack
 from tests.tools.facades import facade
 from tests.tools.office_drawings import lines_of
 from tests.tools.offices import FRAMES, METRES, Office
@@ -151,7 +151,7 @@ def _north(office: Office, _: np.random.Generator) -> Office:
     return _columns(office, [1, 0, 2])
 
 
-@attack("distances of 500 m", "evidence.too-long", office=BY_NAME)
+@attack("distances of 500 m", "evidence.too-long", office={**CLEAR, "ends_by": "names"})
 def _long(office: Office, rng: np.random.Generator) -> Office:
     longer = 500 + rng.uniform(0, 20, len(office.lengths))
     return office.change(measured=office.measured + longer, lengths=office.lengths + longer)

@@ -13,6 +13,8 @@ Change = Callable[[Office, np.random.Generator], Office]
 #: drawings in space or flat whose table gives the delivered coordinates, all of corners
 TOLD: Mapping[str, Any] = {"told": True, "targets": ""}
 BY_ID: Mapping[str, Any] = {**TOLD, "ends_by": "checkpoints"}
+#: numbers that nobody takes for thousands: with three digits behind the sign only the drawing says what they are
+CLEAR: Mapping[str, Any] = {**TOLD, "digits": 4}
 BY_PLACE: Mapping[str, Any] = {**TOLD, "ends_by": "places"}
 BY_NAME: Mapping[str, Any] = {**TOLD, "ends_by": "names"}
 DXF: Mapping[str, Any] = {**TOLD, "format": "dxf"}

@@ -8,7 +8,7 @@ import numpy as np
 import pyogrio
 import shapely
 from tests.attacks.evidence import IN_SPACE
-from tests.attacks.kinds import BY_ID, BY_NAME, DXF, TOLD, attack
+from tests.attacks.kinds import CLEAR, DXF, TOLD, attack
 from tests.tools.offices import METRES, Office
 
 _UNIT = ("checks.unit-contradicted", "features.unit-contradicted")
@@ -21,18 +21,20 @@ def _other(unit: str, rng: np.random.Generator, among: tuple[str, ...] = ("m", "
     return str(rng.choice([name for name in among if name != unit]))
 
 
-@attack("unit of the table wrong", "evidence.cause-unit", "evidence.cause-unit-axes")
+@attack("unit of the table wrong", "evidence.cause-unit", "evidence.cause-unit-axes", office=CLEAR)
 def _table(office: Office, rng: np.random.Generator) -> Office:
     other = _other(office.table_unit, rng)
     return office.state("checkpoints", unit=other).state("distances", unit=other)
 
 
-@attack("unit of the distances wrong", "evidence.distance-factor", office=BY_ID)
+@attack("unit of the distances wrong", "evidence.distance-factor", office={**CLEAR, "ends_by": "checkpoints"})
 def _distances(office: Office, rng: np.random.Generator) -> Office:
     return office.state("distances", unit=_other(office.table_unit, rng))
 
 
-@attack("unit of distances by name wrong", "evidence.too-long", "evidence.too-short", office=BY_NAME)
+@attack(
+    "unit of distances by name wrong", "evidence.too-long", "evidence.too-short", office={**CLEAR, "ends_by": "names"}
+)
 def _named_distances(office: Office, _: np.random.Generator) -> Office:
     return office.state("distances", unit="mm" if office.table_unit == "m" else "m")
 
@@ -57,7 +59,7 @@ def _against_lettering(office: Office, rng: np.random.Generator) -> Office:
 
 @attack(
     "unit of the drawing wrong, against the tables alone", *_UNIT,
-    office={**MODERN, "lettering": "", "header": 0},
+    office={**MODERN, "lettering": "", "header": 0, "digits": 4},
 )  # fmt: skip
 def _tables_alone(office: Office, rng: np.random.Generator) -> Office:
     return office.state("drawing", unit=_other(office.unit, rng, ("m", "cm", "in", "ft")))
@@ -118,9 +120,7 @@ def _title(office: Office, _: np.random.Generator) -> Office:
     return office.change(title_scale=500.0)
 
 
-@attack(
-    "two drawings with the same coordinates in inches and centimetres", office={**DXF, "unit": "cm", "lettering": ""}
-)
+@attack("two drawings alike in inches and centimetres", office={**DXF, "unit": "cm", "lettering": ""})
 def _inches(office: Office, _: np.random.Generator) -> Office:
     def copied(_: Office, folder: Path) -> None:
         (folder / "andar2.dxf").write_bytes((folder / "fachada.dxf").read_bytes())
