@@ -86,6 +86,12 @@ def _with_stray(office: Office, _: np.random.Generator) -> Office:
     return office.change(tamper=(_stray,)).state("drawing", unit="mm").state("checkpoints", path=None)
 
 
+@attack("distances of 150 m beside a stray line", "evidence.too-long", office={**DXF, "unit": "m", "ends_by": "names"})
+def _long_with_stray(office: Office, rng: np.random.Generator) -> Office:
+    longer = 150 + rng.uniform(0, 20, len(office.lengths))
+    return office.change(measured=office.measured + longer, lengths=office.lengths + longer, tamper=(_stray,))
+
+
 @attack("plane wrong", *_PLANE, office=IN_SPACE)
 def _plane(office: Office, rng: np.random.Generator) -> Office:
     return office.state("drawing", plane=str(rng.choice(["xy", "yz"])))
@@ -120,7 +126,7 @@ def _title(office: Office, _: np.random.Generator) -> Office:
     return office.change(title_scale=500.0)
 
 
-@attack("two drawings alike in inches and centimetres", office={**DXF, "unit": "cm", "lettering": ""})
+@attack("two drawings alike in inches and centimetres", *_UNIT, office={**DXF, "unit": "cm", "lettering": ""})
 def _inches(office: Office, _: np.random.Generator) -> Office:
     def copied(_: Office, folder: Path) -> None:
         (folder / "andar2.dxf").write_bytes((folder / "fachada.dxf").read_bytes())

@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 
 from foparq.check.drawn.columns import Columns
+from foparq.check.drawn.extent import boxes_of, main_extent
 from foparq.columns import Coordinates, Flags, Geometries, Reals, Texts
 from foparq.match.linework import Footing, Linework, footing, stands_in_space
 from foparq.model.drawing import Drawing
@@ -104,9 +105,8 @@ class Ground:
         return finite
 
     def longest(self) -> float:
-        """Length of the longest line that fits into the box of the drawing."""
-        corners = self.corners()
-        return float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 0.0
+        """Length of the longest line that fits into the box of the drawing, without strays."""
+        return float(np.linalg.norm(main_extent(boxes_of(self.work.lines))))
 
 
 def ground_of(drawing: Drawing) -> Ground | None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
+from foparq.check.drawn.extent import boxes_of, main_extent
 from foparq.columns import Geometries, Reals
 from foparq.model.drawing import Dimensions, Drawing, UnitOrigin
 from foparq.model.inputs import UnitEvidence
@@ -20,8 +21,6 @@ _EXAMPLES = 5
 _STRETCH = 0.002  #: scale of a projection that no survey of a building could overlook
 _SMALLEST = 0.2  #: metres across that a drawing of a building has at least
 _LARGEST_DXF, _LARGEST_GIS = 500.0, 20_000.0  #: and at most: of a building, and of a town in a map
-_FAR = 1.0  #: strays reach farther from the middle of the drawing than this is wide, so many times
-_FEW = 0.05  #: and are no larger share of the items; one item always may be
 _VAGUE = 0.5  #: weight of what is merely implausible
 _MATCH = 0.02  #: relative difference of a lettered number to the measured length in another unit
 
@@ -181,10 +180,10 @@ def _row_of(drawing: Drawing, chain: str) -> int:
 def _implausible(drawing: Drawing, metres: float, largest: float) -> float | None:
     """Metres across, if no building is; ``None`` if one could be."""
     seen = drawing.visible_rows() & np.isin(drawing.items.role, [Role.LINE, Role.AREA])
-    boxes = _boxes(drawing.items.geometry[seen])
+    boxes = boxes_of(drawing.items.geometry[seen])
     if len(boxes) == 0:
         return None
-    together = _extent(boxes) * metres
+    together = float(main_extent(boxes).max()) * metres
     if together == 0:
         return None
     if together < _SMALLEST:
@@ -192,24 +191,3 @@ def _implausible(drawing: Drawing, metres: float, largest: float) -> float | Non
     middle = np.quantile(boxes[:, 3:], 0.9, axis=0) - np.quantile(boxes[:, :3], 0.1, axis=0)
     spread = float(np.max(middle)) * metres
     return spread if spread > largest else None
-
-
-def _boxes(geometry: Geometries) -> Reals:
-    """(n, 6) lower and upper corners of items whose coordinates are numbers; a missing depth is zero."""
-    corners, item = shapely.get_coordinates(geometry, include_z=True, return_index=True)
-    corners[:, 2] = np.nan_to_num(corners[:, 2], posinf=np.inf, neginf=-np.inf)
-    low, high = np.full((len(geometry), 3), np.inf), np.full((len(geometry), 3), -np.inf)
-    np.minimum.at(low, item, corners)
-    np.maximum.at(high, item, corners)
-    boxes: Reals = np.hstack([low, high])
-    return boxes[np.isfinite(boxes).all(axis=1)]
-
-
-def _extent(boxes: Reals) -> float:
-    """Largest extent along an axis, without the few items that reach far beyond the middle of all others."""
-    low = np.quantile(boxes[:, :3], 0.1, axis=0, method="higher")
-    high = np.quantile(boxes[:, 3:], 0.9, axis=0, method="lower")
-    far = _FAR * max(0.0, float(np.max(high - low)))
-    stray = np.any((boxes[:, 3:] > high + far) | (boxes[:, :3] < low - far), axis=1)
-    kept = boxes[~stray] if np.count_nonzero(stray) <= max(1.0, _FEW * len(boxes)) else boxes
-    return float(np.max(kept[:, 3:].max(axis=0) - kept[:, :3].min(axis=0))) if len(kept) else 0.0
