@@ -7,6 +7,7 @@ import shapely
 from foparq.columns import Geometries, Reals
 
 _FAR = 1.0  #: strays reach farther from the middle of the drawing than this is wide, so many times
+_MANY = 10  #: of fewer items the middle tells less, and strays must reach the farther
 _FEW = 0.05  #: and are no larger share of the items; one item always may be
 
 
@@ -27,7 +28,7 @@ def main_extent(boxes: Reals) -> Reals:
         return np.zeros(3)
     low = np.quantile(boxes[:, :3], 0.1, axis=0, method="higher")
     high = np.quantile(boxes[:, 3:], 0.9, axis=0, method="lower")
-    far = _FAR * max(0.0, float(np.max(high - low)))
+    far = _FAR * max(1.0, _MANY / len(boxes)) * max(0.0, float(np.max(high - low)))
     stray = np.any((boxes[:, 3:] > high + far) | (boxes[:, :3] < low - far), axis=1)
     kept = boxes[~stray] if np.count_nonzero(stray) <= max(1.0, _FEW * len(boxes)) else boxes
     extent: Reals = kept[:, 3:].max(axis=0) - kept[:, :3].min(axis=0) if len(kept) else np.zeros(3)
