@@ -21,7 +21,7 @@ FRAMES = {
     "yz": np.array([[0.0, 1, 0], [0, 0, 1], [1, 0, 0]]),
 }
 METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001, "km": 1000.0, "in": 0.0254, "ft": 0.3048}
-_ALPHA = 0.06  #: significance of a trend that is drawn again; the specification rejects at 0.05
+_ALPHA = 0.1  #: significance of a trend that is drawn again; the specification rejects at 0.05, of rounded numbers
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
