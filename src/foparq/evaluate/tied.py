@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Differences of the tables as far as the drawings bear them out."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,7 @@ from foparq.findings.because import Because
 from foparq.findings.ties import DistanceTies, Ends, Lies, PointTies
 from foparq.match.causes import Cause
 from foparq.model.tables import Checkpoints, Distances
+from foparq.names import folded
 from foparq.profile.elements import AXES
 
 _SHOWN = 10  #: ids that a reason names
@@ -75,6 +77,7 @@ def tied_distances(distances: Distances, evidence: Evidence, name: str) -> Tied:
     remarks = []
     if len(repeated):
         remarks.append(_naming("evidence.repeated-distances", name, distances.id[repeated], kept=len(rows)))
+    ties = replace(ties, ends=_without_confirmed(distances, evidence, ties))
     names = ties.ends == Ends.NAMES
     if names.any():
         remarks.append(because("evidence.names-only", element=name, n=int(names.sum()), total=len(distances.id)))
@@ -106,6 +109,19 @@ def too_small(found: Reals, survey_sd: float | None, resolution: float, name: st
     return because("evidence.too-good" if gross else "evidence.good", element=name, **fields), gross
 
 
+def resolution_of(points: Checkpoints, evidence: Evidence, axis: int) -> float:
+    """Half the last printed digits of surveyed plus delivered coordinates of one axis, metres.
+
+    What is printed of delivered coordinates that are those of vertices was not rounded by more than it differs from
+    them, however few digits round numbers show.
+    """
+    printed, resolution = float(points.printed[axis]), float(points.resolution[axis])
+    ties = evidence.ties.points if evidence.ties else None
+    if ties is None or not len(ties.corner) or ties.unchecked[axis]:
+        return resolution
+    return resolution - max(0.0, printed - float(ties.corner.max()))
+
+
 def unchecked(evidence: Evidence, axis: int, name: str) -> tuple[Reason, ...]:
     """Remark that a flat drawing says nothing of an axis."""
     ties = evidence.ties.points if evidence.ties else None
@@ -125,14 +141,18 @@ def _untied(evidence: Evidence, name: str) -> tuple[Reason, ...]:
 def _absent(points: Checkpoints, ties: PointTies, name: str) -> tuple[Reason, ...]:
     absent = ties.lies == Lies.ABSENT
     if not absent.any():
-        return ()
+        return () if ties.cause is None else (_of_all(points, ties, ties.cause, name),)
     gaps = ties.gap[absent & np.isfinite(ties.gap)]
     least, most = (float(gaps.min()), float(gaps.max())) if len(gaps) else (np.nan, np.nan)
     said = {"total": len(points.id), "least": (least, "m"), "most": (most, "m")}
     why = [_naming("evidence.absent", name, points.id[absent], **said)]
     if ties.cause is not None:
-        why.insert(0, _explained(ties.cause, ties.near, name, int(np.isfinite(points.delivered).all(axis=1).sum())))
+        why.insert(0, _of_all(points, ties, ties.cause, name))
     return tuple(why)
+
+
+def _of_all(points: Checkpoints, ties: PointTies, cause: Cause, name: str) -> Reason:
+    return _explained(cause, ties.near, name, int(np.isfinite(points.delivered).all(axis=1).sum()))
 
 
 _CAUSES = {
@@ -150,6 +170,19 @@ def _explained(cause: Cause, file: str, name: str, n: int) -> Reason:
     return because(
         message, element=name, n=n, file=file, axes=axes, factor=f"{cause.factor:.6g}", right=right, up=up, depth=depth
     )
+
+
+def _without_confirmed(distances: Distances, evidence: Evidence, ties: DistanceTies) -> Texts:
+    """(n,) ends of distances; one at a checkpoint that a person confirms not to be drawn is a name only."""
+    points, there = evidence.delivery.checkpoints, evidence.ties.points if evidence.ties else None
+    if points is None or there is None or evidence.confirmation("checkpoints", NOT_DRAWN) is None:
+        return ties.ends
+    stereo = {folded(str(name)) for name in points.id[there.lies == Lies.ABSENT]}
+    ends = ties.ends.copy()
+    for row in np.flatnonzero(ends == Ends.ABSENT).tolist():
+        if {folded(str(distances.start[row])), folded(str(distances.end[row]))} & stereo:
+            ends[row] = str(Ends.NAMES)
+    return ends
 
 
 _DISTANCE_DOUBTS = {

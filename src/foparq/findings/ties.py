@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: MIT
 """How tables of evidence belong to the drawings beside them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
+
+import numpy as np
 
 from foparq.columns import Flags, Index, Reals, Texts
 from foparq.findings.because import Because
 from foparq.match.causes import Cause
+
+
+def _untold() -> Reals:
+    return np.empty(0)
 
 
 class Lies(StrEnum):
@@ -45,6 +51,7 @@ class PointTies:
     delivered: Reals  #: (n, 3) coordinates that count, metres: of the table, else of the drawing; NaN if untold
     group: Index  #: (n,) points that stand for one place have one number
     unchecked: Flags  #: (3,) axes in which no drawing could be compared: it is flat
+    corner: Reals = field(default_factory=_untold)  #: (n,) to its vertex, else infinite; empty: untold
     cause: Cause | None = None  #: what would put all of them on the drawing
     near: str = ""  #: path of the drawing of which the cause speaks
 

@@ -22,7 +22,7 @@ DOMAINS = ("cli", "errors", "evaluate", "report")  #: of gettext
 _LADDERS = {
     "m": ((1e-4, "µm", 1e6, 2), (1.0, "mm", 1e3, 2), (float("inf"), "m", 1.0, 3)),
     "m2": ((1e-2, "mm²", 1e6, 1), (float("inf"), "m²", 1.0, 4)),
-    "1": ((float("inf"), "%", 1e2, 2),),
+    "1": ((1e-4, "%", 1e2, 4), (float("inf"), "%", 1e2, 2)),
     "items": ((float("inf"), "", 1.0, 0),),
 }
 

@@ -34,10 +34,10 @@ def tie_distances(
 ) -> DistanceTies:  # fmt: skip
     """Distances held against drawings.
 
-    An end is a point of a drawing if the table gives its coordinates and linework lies there, or if its name is the id
-    of a checkpoint that lies in a drawing, or borne by one place there. The delivered length must be that between the
-    ends, or that in the plane where the drawing is flat, but for ``2 tie`` and the printed digits. Where the ends are
-    names only, a drawing must be able to hold the length.
+    An end is a point of a drawing if the table gives its coordinates and linework lies there, or an insert that bears a
+    name, or if its name is the id of a checkpoint that lies in a drawing, or borne by one place there. The delivered
+    length must be that between the ends, or that in the plane where the drawing is flat, but for ``2 tie`` and the
+    printed digits. Where the ends are names only, a drawing must be able to hold the length.
 
     Parameters
     ----------
@@ -90,6 +90,7 @@ def _ends(
         within = np.full(len(rows), tie + distances.printed * np.sqrt(3))
         for ground in grounds:
             known[rows, end] |= ground.footing(places[rows, end], within).line != NOTHING
+            known[rows, end] |= ground.marked(places[rows, end], within)
     absent = given & ~known
     if points is not None and ties is not None:
         row_of = {folded(str(name)): row for row, name in enumerate(points.id)}

@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 
 from foparq.check.drawn.columns import Columns
+from foparq.check.drawn.extent import boxes_of, main_extent
 from foparq.columns import Coordinates, Flags, Geometries, Reals, Texts
 from foparq.match.linework import Footing, Linework, footing, stands_in_space
 from foparq.model.drawing import Drawing
@@ -62,6 +63,17 @@ class Ground:
         """Linework on which places (n, 3) in metres, in the axes of the file, lie."""
         return footing(self.on_sheet(places), self.work, within=within, deep=self.deep)
 
+    def marked(self, places: Coordinates, within: Reals) -> Flags:
+        """(n,) whether an insert that bears a name stands at a place (n, 3), metres, in the axes of the file."""
+        labels = self.drawing.reading.labels
+        marks = labels.place[labels.block] * self.metres if labels is not None else np.empty((0, 3))
+        if not len(marks):
+            return np.zeros(len(places), dtype=bool)
+        axes = 3 if self.deep else 2
+        apart = self.on_sheet(places)[:, None, :axes] - self.on_sheet(marks)[None, :, :axes]
+        at: Flags = np.any(np.linalg.norm(apart, axis=2) <= within[:, None], axis=1)
+        return at
+
     def bearing(self, name: str) -> Coordinates | None:
         """The one place (3,) that bears a name, in the axes of the file, metres; ``None`` if none does, or several.
 
@@ -93,9 +105,8 @@ class Ground:
         return finite
 
     def longest(self) -> float:
-        """Length of the longest line that fits into the box of the drawing."""
-        corners = self.corners()
-        return float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 0.0
+        """Length of the longest line that fits into the box of the drawing, without strays."""
+        return float(np.linalg.norm(main_extent(boxes_of(self.work.lines))))
 
 
 def ground_of(drawing: Drawing) -> Ground | None:

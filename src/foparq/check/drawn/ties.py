@@ -80,10 +80,10 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
     -------
     PointTies, n rows
         Of several drawings the nearest counts. If more than half of the points are absent, the cause that would put
-        all of them on one drawing.
+        all of them on one drawing; if more than half are absent or within a line, that which would put all at vertices.
     """
     n = len(points.id)
-    lies, gap = np.full(n, str(Lies.ABSENT), dtype=object), np.full(n, np.inf)
+    lies, gap, corner = np.full(n, str(Lies.ABSENT), dtype=object), np.full(n, np.inf), np.full(n, np.inf)
     names = {name: np.full(n, "", dtype=object) for name in ("drawing", "item", "layer")}
     delivered, compared = points.delivered.copy(), np.zeros((n, 3), dtype=bool)
     untold = np.isnan(points.delivered).all(axis=1)
@@ -100,10 +100,12 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
         gap = np.where(on | absent, np.minimum(gap, found.distance), gap)
         lies[on] = np.where(found.vertex[on] <= within[on], str(Lies.VERTEX), str(Lies.LINEWORK))
         lies[on & untold] = str(Lies.TAKEN_VERTEX)
+        corner[on] = np.where(found.vertex[on] <= near.tie, found.vertex[on], np.inf)
         names["item"][on], names["layer"][on] = ground.item[found.line[on]], ground.layer[found.line[on]]
         apart = _apart(ground, places, bearing)
         at_name = absent & ~on & (apart <= within)
         lies[at_name], gap[at_name] = str(Lies.NAMED), apart[at_name]
+        corner[at_name] = np.where(apart[at_name] <= near.tie, apart[at_name], np.inf)
         lies[by_name] = str(Lies.TAKEN_NAMED)
         on |= at_name | by_name
         delivered[on & untold] = places[on & untold]
@@ -113,10 +115,10 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
     absent = lies == Lies.ABSENT
     seen: Flags = np.any(compared, axis=0)
     lies[absent & untold] = str(Lies.UNTOLD)
-    cause, drawing = _cause(points.delivered, absent & ~untold, grounds, within)
+    cause, drawing = _cause(points.delivered, lies, grounds, within)
     return PointTies(
         lies=lies, gap=gap, **names, delivered=delivered, group=repeats(points.surveyed, apart=near.apart),
-        unchecked=~seen, cause=cause, near=drawing,
+        corner=corner, unchecked=~seen, cause=cause, near=drawing,
     )  # fmt: skip
 
 
@@ -156,14 +158,20 @@ def _only_vertices(ground: Ground, surveyed: Coordinates, radius: float) -> Coor
 _ONE_VERTEX = 0.01  #: share of the radius of search in which ends of lines are one corner
 
 
-def _cause(delivered: Coordinates, absent: Flags, grounds: Sequence[Ground], within: Reals) -> tuple[Cause | None, str]:
-    """One cause that explains why most points are absent, and the drawing on which all would lie."""
+def _cause(delivered: Coordinates, lies: Texts, grounds: Sequence[Ground], within: Reals) -> tuple[Cause | None, str]:
+    """One cause that explains why most points are absent, and the drawing on which all would lie.
+
+    Corners of a drawing that was moved or stretched along its lines still lie on these. So where most points are absent
+    or within a line, and few absent, a cause is one that puts all of them at corners.
+    """
     told = np.isfinite(delivered).all(axis=1)
-    if 2 * np.count_nonzero(absent & told) <= np.count_nonzero(told):
+    absent, off = told & (lies == Lies.ABSENT), told & np.isin(lies, [Lies.ABSENT, Lies.LINEWORK])
+    if 2 * np.count_nonzero(off) <= np.count_nonzero(told):
         return None, ""
+    search = _cause_on if 2 * np.count_nonzero(absent) > np.count_nonzero(told) else _beside_corners
     places, reach = delivered[told], within[told]
     for ground in grounds:
-        cause = _cause_on(ground, places, reach)
+        cause = search(ground, places, reach)
         if cause is not None:
             return cause, ground.drawing.path
     return None, ""
@@ -181,3 +189,20 @@ def _cause_on(ground: Ground, places: Coordinates, within: Reals) -> Cause | Non
     return by_axes_or_unit(places, _FACTORS, in_file) or by_place_or_size(
         ground.on_sheet(places), ground.corners(), within=step, holds=on_sheet
     )
+
+
+def _beside_corners(ground: Ground, places: Coordinates, within: Reals) -> Cause | None:
+    sheet, corners, axes = ground.on_sheet(places), ground.corners(), 3 if ground.deep else 2
+    if not len(sheet) or not len(corners):
+        return None
+    from scipy.spatial import cKDTree  # noqa: PLC0415 - slow to load
+
+    tree = cKDTree(corners[:, :axes])
+
+    def at_corners(moved: Coordinates) -> Flags:
+        lies: Flags = tree.query(moved[:, :axes])[0] <= within
+        return lies
+
+    if 2 * np.count_nonzero(at_corners(sheet)) > len(sheet):
+        return None
+    return by_place_or_size(sheet, corners, within=float(within.max()), holds=at_corners)

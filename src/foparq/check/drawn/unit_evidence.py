@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
+from foparq.check.drawn.extent import boxes_of, main_extent
 from foparq.columns import Geometries, Reals
 from foparq.model.drawing import Dimensions, Drawing, UnitOrigin
 from foparq.model.inputs import UnitEvidence
@@ -20,9 +21,6 @@ _EXAMPLES = 5
 _STRETCH = 0.002  #: scale of a projection that no survey of a building could overlook
 _SMALLEST = 0.2  #: metres across that a drawing of a building has at least
 _LARGEST_DXF, _LARGEST_GIS = 500.0, 20_000.0  #: and at most: of a building, and of a town in a map
-_FAR = 3.0  #: strays lie farther from the drawing than it is wide, so many times
-_MOST = 0.8  #: share of the items that the drawing itself has at least
-_FEW = 0.05  #: and are no larger share of the items; one item always may be
 _VAGUE = 0.5  #: weight of what is merely implausible
 _MATCH = 0.02  #: relative difference of a lettered number to the measured length in another unit
 
@@ -182,34 +180,14 @@ def _row_of(drawing: Drawing, chain: str) -> int:
 def _implausible(drawing: Drawing, metres: float, largest: float) -> float | None:
     """Metres across, if no building is; ``None`` if one could be."""
     seen = drawing.visible_rows() & np.isin(drawing.items.role, [Role.LINE, Role.AREA])
-    boxes = shapely.bounds(drawing.items.geometry[seen])
-    raised = [geometry for geometry in drawing.items.geometry[seen] if geometry is not None and shapely.has_z(geometry)]
-    boxes = boxes[np.isfinite(boxes).all(axis=1)]
+    boxes = boxes_of(drawing.items.geometry[seen])
     if len(boxes) == 0:
         return None
-    heights = shapely.get_coordinates(np.array(raised, dtype=object), include_z=True)[:, 2] if raised else np.zeros(1)
-    heights = heights[np.isfinite(heights)]
-    depth = np.ptp(heights) if len(heights) else 0.0
-    together = max(*(_span(boxes[:, axis], boxes[:, axis + 2]) for axis in (0, 1)), depth) * metres
+    together = float(main_extent(boxes).max()) * metres
     if together == 0:
         return None
     if together < _SMALLEST:
         return float(together)
-    middle = np.quantile(boxes[:, 2:], 0.9, axis=0) - np.quantile(boxes[:, :2], 0.1, axis=0)
+    middle = np.quantile(boxes[:, 3:], 0.9, axis=0) - np.quantile(boxes[:, :3], 0.1, axis=0)
     spread = float(np.max(middle)) * metres
     return spread if spread > largest else None
-
-
-def _span(low: Reals, high: Reals) -> float:
-    """Extent of intervals along one axis, without the few that lie far from all others."""
-    order = np.argsort(low, kind="stable")
-    low, reach = low[order], np.maximum.accumulate(high[order])
-    starts = np.concatenate([[0], np.flatnonzero(low[1:] > reach[:-1]) + 1])
-    count = np.diff([*starts, len(low)])
-    main = int(np.argmax(count))
-    ends = np.maximum.reduceat(high[order], starts)
-    first, last = low[starts[main]], ends[main]
-    near = _FAR * (last - first)
-    few = max(1.0, _FEW * len(low)) if count[main] >= _MOST * len(low) else 0.0
-    kept = (count > few) | ((low[starts] <= last + near) & (ends >= first - near))
-    return float(ends[kept].max() - low[starts][kept].min())

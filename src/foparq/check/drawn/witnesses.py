@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import shapely
 
-from foparq.check.drawn.unit_evidence import against
+from foparq.check.drawn.unit_evidence import against, unit_evidence
 from foparq.columns import Reals
 from foparq.findings.ties import Ties
 from foparq.model.delivery import Delivery
-from foparq.model.drawing import Drawing, Heard
+from foparq.model.drawing import Drawing, Heard, UnitOrigin
 from foparq.model.items import Role
 
 _SAME_BOX = 0.9  #: share of the joint box that two drawings of one thing have in common
@@ -22,8 +22,9 @@ def with_witnesses(delivery: Delivery, ties: Ties | None) -> Delivery:
     """Delivery whose drawings know what other files say of their units.
 
     Two drawings with the same coordinates in different units cannot both be right: floors and facades of one building
-    repeat its measures. A table that would lie on a drawing in another unit speaks against that of the drawing only
-    beside another witness; alone it is in the wrong unit itself.
+    repeat its measures. A table that would lie on a drawing in another unit speaks against that of the drawing beside
+    another witness, and where neither header nor lettering bears the drawing out: one of the two statements is wrong,
+    and nobody knows which. Against them it is in the wrong unit itself.
 
     Parameters
     ----------
@@ -43,10 +44,21 @@ def with_witnesses(delivery: Delivery, ties: Ties | None) -> Delivery:
 
 def _by_table(delivery: Delivery, drawing: Drawing, ties: Ties | None) -> list[Heard]:
     cause = ties.points.cause if ties and ties.points and ties.points.near == drawing.path else None
-    if cause is None or cause.kind != "unit" or drawing.unit.metres is None or not against(drawing, _OTHER_UNIT):
+    if cause is None or cause.kind != "unit" or drawing.unit.metres is None:
+        return []
+    if _borne_out(drawing) and not against(drawing, _OTHER_UNIT):
         return []
     path = next((source.path for source in delivery.sources if source.role == "checkpoints"), "")
     return [Heard(witness="tables", path=path, says=drawing.unit.metres / cause.factor)]
+
+
+def _borne_out(drawing: Drawing) -> bool:
+    """Whether the file itself says the unit in use, by its header or its lettering."""
+    if drawing.unit.origin is UnitOrigin.HEADER:
+        return True
+    evidence = unit_evidence(drawing)
+    agrees = np.abs(evidence.says / evidence.used - 1) <= np.maximum(_OTHER_UNIT, evidence.weight)
+    return bool(np.any(agrees & np.isin(evidence.witness, ["header", "lettering"])))
 
 
 def _by_drawings(drawing: Drawing, drawings: Sequence[Drawing]) -> list[Heard]:

@@ -29,6 +29,7 @@ from foparq.profile.schema import Profile
 _UNIT_RULE = "unit-contradiction"
 _LINEWORK = frozenset({Features, Lines, Areas})
 _WITNESSES = 2  #: independent ones that contradict a person
+_ALONE = {"drawing", "tables"}  #: heard only where one of two statements of a person must be wrong
 _ALL: Patterns = ("*",)
 
 
@@ -91,7 +92,8 @@ class DrawingSubject(Subject):
         """Unit unknown or contradicted, or a plane that is not the drawing's.
 
         The file's own unit is doubtful as soon as one statement contradicts it. A unit that a person states is so if
-        two independent witnesses say otherwise, or another drawing with the same coordinates, until it is confirmed.
+        two independent witnesses say otherwise, or what the person states of another drawing with the same coordinates
+        or of a table, until it is confirmed.
         """
         unit = self.drawing.unit
         if unit.metres is None:
@@ -104,7 +106,7 @@ class DrawingSubject(Subject):
             return Doubt(Because.UNIT_DOUBTFUL)
         if doubted and "unit" not in self.drawing.confirmed:
             witnesses = against(self.drawing, max(dict(_agree(one)).get("agree", 0.0) for one in doubted))
-            if len(witnesses) >= _WITNESSES or "drawing" in witnesses:
+            if len(witnesses) >= _WITNESSES or _ALONE & witnesses.keys():
                 return Doubt(Because.UNIT_CONTRADICTED, (f"unit: {unit.name}", *witnesses.values()))
         return self._plane_doubt
 

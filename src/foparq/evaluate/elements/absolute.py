@@ -12,7 +12,7 @@ from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.residuals import naming_worst, point_residuals
 from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters, with_doubts
-from foparq.evaluate.tied import tied_points, unchecked
+from foparq.evaluate.tied import resolution_of, tied_points, unchecked
 from foparq.profile.elements import AXES, AbsoluteSpec
 
 
@@ -40,7 +40,7 @@ def _axis(spec: AbsoluteSpec, evidence: Evidence, axis: int) -> Element:
             method="directExternal",
         )  # fmt: skip
     tied = tied_points(points, evidence, id_)
-    resolution = float(points.resolution[axis])
+    resolution = resolution_of(points, evidence, axis)
     sample = Sample(
         kind="absolute", id=id_, all=tied.differences[:, axis], resolution=resolution, survey_sd=points.survey_sd
     )

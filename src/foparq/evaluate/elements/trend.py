@@ -12,7 +12,7 @@ from foparq.columns import Reals
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
-from foparq.evaluate.tied import tied_points
+from foparq.evaluate.tied import resolution_of, tied_points, too_small
 from foparq.model.tables import Checkpoints
 from foparq.profile.elements import AXES, TrendSpec
 
@@ -61,7 +61,11 @@ def _axis(spec: TrendSpec, points: Checkpoints, evidence: Evidence, axis: int) -
             parameters=(("mean", found.mean, "m"), ("sd", found.sd, "m"), ("n", float(found.n), "items")),
         )  # fmt: skip
     test = student_test(known, confidence=spec.confidence)
-    judgement = _judge(id_, test, found, len(every), float(points.resolution[axis]))
+    resolution = resolution_of(points, evidence, axis)
+    judgement = _judge(id_, test, found, len(every), resolution)
+    good, gross = too_small(known, points.survey_sd, resolution, id_)
+    if good and gross and judgement.status is ElementStatus.FAIL:  # what was copied has the trend of its rounding
+        judgement = judged(ElementStatus.UNDECIDED, good)
     if tied.doubts:
         judgement = judged(ElementStatus.UNDECIDED, *tied.doubts)
     remarks, extra = _normality(id_, known, spec.confidence)

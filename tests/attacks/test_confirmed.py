@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: MIT
+"""A person who confirms a statement by name decides a doubt, and is printed with the verdict."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.attacks.evidence import both
+from tests.attacks.kinds import BY_ID, BY_NAME, DXF
+from tests.attacks.statements import MODERN
+from tests.tools.offices import Office, office
+from tests.tools.sound import audited
+
+from foparq.audit import Audit
+
+WHO = {"by": "Revisora responsável", "reason": "vistoria de 12 de março"}
+
+
+def _above(made: Office) -> Office:
+    return both(made, np.arange(2), np.array([0, 3.0, 0]))
+
+
+def _long(made: Office) -> Office:
+    return made.change(measured=made.measured + 500, lengths=made.lengths + 500)
+
+
+def _two_witnesses(made: Office) -> Office:
+    """Metres, beside a header and lettering that say millimetres."""
+    return made.change(header=4, letter_suffix=" mm")
+
+
+def _scale(made: Office) -> Office:
+    return made.change(title_scale=500, view_scale=500)
+
+
+def _fine(made: Office) -> Office:
+    """The scale of a sheet for a study of the whole front: beyond those of the product, and larger errors with it."""
+    return made.change(title_scale=250, view_scale=250).state("delivery", scale="1:250")
+
+
+#: what is confirmed, its value, what makes it doubtful, and the deliveries
+DOUBTS = {
+    "points": ("checkpoints", "not drawn", _above, BY_ID),
+    "distances": ("distances", "not drawn", _long, BY_NAME),
+    "unit": ("unit", "m", _two_witnesses, {**MODERN, "unit": "m", "lettering": "m"}),
+    "scale of the sheet": ("scale", "", _scale, {**MODERN, "title": True}),
+    "scale beyond the product": ("scale", "1:250", _fine, {**DXF, "scale": 100}),
+}
+
+
+def printed(done: Audit) -> list[dict[str, object]]:
+    return [dict(reason.fields) for reason in done.record.quality.why if reason.message == "verdict.confirmed"]
+
+
+@pytest.mark.parametrize("name", DOUBTS)
+def test_a_doubt_passes_when_it_is_confirmed(name: str, tmp_path: Path) -> None:
+    what, value, doubt, wishes = DOUBTS[name]
+    change: Callable[[Office], Office] = doubt
+    wrong = {}
+    for seed in range(10):
+        made = change(office(2000 + seed, **{"n": 9, **wishes}))
+        said = {"what": what, "value": value or f"1:{made.scale}", **WHO}
+        before = audited(made, tmp_path / f"{seed}-doubtful").record.quality.verdict
+        done = audited(made.change(confirmed=(said,)), tmp_path / f"{seed}-confirmed")
+        if (before, done.record.quality.verdict, printed(done)) != ("undecided", "accepted", [said]):
+            wrong[seed] = (str(before), str(done.record.quality.verdict), done.record.quality.why)
+    assert not wrong
