@@ -16,7 +16,7 @@ from foparq.audit import Audit
 def reasons(done: Audit) -> set[str]:
     """Messages of the verdict and of all elements."""
     quality = done.record.quality
-    every = (*quality.why, *(reason for element in quality.elements for reason in element.why))
+    every = (*quality.why, *quality.remarks, *(reason for element in quality.elements for reason in element.why))
     return {reason.message for reason in every}
 
 

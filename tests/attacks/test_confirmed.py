@@ -50,7 +50,9 @@ DOUBTS = {
 
 
 def printed(done: Audit) -> list[dict[str, object]]:
-    return [dict(reason.fields) for reason in done.record.quality.why if reason.message == "verdict.confirmed"]
+    quality = done.record.quality
+    said = (*quality.why, *quality.remarks)
+    return [dict(reason.fields) for reason in said if reason.message == "verdict.confirmed"]
 
 
 @pytest.mark.parametrize("name", DOUBTS)
