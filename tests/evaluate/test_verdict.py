@@ -16,6 +16,7 @@ from tests.evaluate.deliveries import (
     listed,
     not_run,
     outcome,
+    point_ties,
     source,
     spec,
     surveyed,
@@ -24,6 +25,7 @@ from tests.evaluate.deliveries import (
 from foparq.evaluate.quality import ElementStatus, Verdict
 from foparq.findings.because import Because
 from foparq.findings.outcome import Status
+from foparq.findings.ties import Ties
 from foparq.model.delivery import Delivery, SourceStatus
 from foparq.profile.elements import ElementSpec
 from foparq.profile.load import load_profile
@@ -146,3 +148,14 @@ def test_an_empty_delivery_passes_nothing() -> None:
 def test_elements_keep_the_order_of_the_profile() -> None:
     elements = judge(BAD, GOOD, rate("third", "a", limit=Quantity(1, "%")), delivery=HERE, outcomes=OUTCOMES).elements
     assert [element.id for element in elements] == ["bad", "good", "third"]
+
+
+def test_a_contradicted_statement_is_the_first_reason() -> None:
+    points = checkpoints([0.001] * 8)
+    absent = Ties(points=point_ties(points, lies=np.full(8, "absent", dtype=object)), drawings=1)
+    delivery = surveyed(points, parts=(drawing(),))
+    report = judge(
+        spec("absolute", id="Q1"), spec("faulty-rate", id="Q3", rules=("undershoot",)), delivery=delivery, ties=absent,
+        outcomes=[not_run("undershoot", Because.UNIT_CONTRADICTED)],
+    )  # fmt: skip
+    assert [reason.message for reason in report.why] == ["checks.unit-contradicted", "evidence.absent"]

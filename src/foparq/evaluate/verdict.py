@@ -15,6 +15,12 @@ from foparq.profile.elements import results_of
 from foparq.profile.schema import Profile
 
 _OPEN = set(ElementStatus) - {ElementStatus.PASS, ElementStatus.FAIL}
+#: doubts about what the manifest or the file states of itself, on which all others rest
+_STATEMENTS = frozenset(
+    f"{what}.{why}"
+    for what in ("checks", "features")
+    for why in ("unit-contradicted", "unit-doubtful", "unit-angle", "crs-unfit", "plane-contradicted", "plane-doubtful")
+)
 _LOST = {SourceStatus.REFUSED: "verdict.refused", SourceStatus.MISSING: "verdict.missing"}
 
 
@@ -29,6 +35,8 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     failed = [element for element in required if element.status is ElementStatus.FAIL]
     opened = [element for element in required if element.status in _OPEN]
     doubts = _together(deciding(element) for element in opened) + lost_files(evidence) + crashes(evidence)
+    # Numbers of a drawing in the wrong unit or plane follow from that, and say nothing themselves.
+    doubts.sort(key=lambda reason: reason.message not in _STATEMENTS)
     if not required:
         doubts.append(because("verdict.nothing-required"))
     beside: list[Sequence[Reason]] = [remarks_on(element, deciding(element)) for element in opened]
