@@ -16,6 +16,8 @@ def folded(name: str) -> str:
     >>> folded(" Pe\u0301-direito ") == folded("P\u00c9-DIREITO")
     True
     """
+    if name.isascii():
+        return name.strip().casefold()
     return unicodedata.normalize("NFC", unicodedata.normalize("NFC", name.strip()).casefold())
 
 
