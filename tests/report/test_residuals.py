@@ -113,3 +113,11 @@ def test_each_point_has_its_coordinates_in_the_manner_of_the_language(measured: 
     text = page(measured)
     assert text.count("x 19.000; y 12.500; z 7.400 m") == text.count("x 19,000; y 12,500; z 7,400 m") == 3
     assert text.count("Diferenças normais ficam perto da reta.") == 1
+
+
+def test_the_note_says_what_a_stroke_is_worth(measured: AuditRecord) -> None:
+    """A stroke of a length on the drawing is that length over the factor."""
+    found = re.search(r"enlarged (\d+) times: one of ([\d.]+) m on the drawing is ([\d.]+) mm", page(measured))
+    assert found is not None
+    factor, drawn, true = map(float, found.groups())
+    assert true / 1000 * factor == pytest.approx(drawn, rel=0.01)
