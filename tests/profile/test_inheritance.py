@@ -182,7 +182,6 @@ def test_lines_of_tables_and_keys(tmp_path: Path) -> None:
     [
         ("path = C:\\a\\b.dxf", 'path = "C:/a/b.dxf"'), ("unit = mm # note", 'unit = "mm"'),
         ("title = “x”", 'title = "x"'), ("areas = [x", 'unit = "m"'), ("what", 'unit = "m"'), ("= 3", 'unit = "m"'),
-        ("x =", 'unit = "m"'),
     ],
 )  # fmt: skip
 def test_a_line_that_lacks_quotes_is_shown_with_them(tmp_path: Path, line: str, example: str) -> None:
@@ -191,6 +190,15 @@ def test_a_line_that_lacks_quotes_is_shown_with_them(tmp_path: Path, line: str, 
     fields = caught.value.fields
     assert (caught.value.message, fields["line"], fields["value"]) == ("toml.syntax", 2, line)
     assert fields["example"] == example
+
+
+@pytest.mark.parametrize("line", ["counted =", "counted =   # a number from 4 to 8", "  counted=\t"])
+def test_a_key_without_a_value_is_told_as_such(tmp_path: Path, line: str) -> None:
+    """The lines that the page offers leave the count open; who pastes them as they are learns which line to fill in."""
+    with pytest.raises(ManifestError) as caught:
+        load_manifest(write(tmp_path, f"[[decision]]\n{line}\n"))
+    fields = caught.value.fields
+    assert (caught.value.message, fields["line"], fields["key"]) == ("toml.no-value", 2, "counted")
 
 
 def test_a_manifest_of_exactly_a_million_bytes_is_read(tmp_path: Path) -> None:

@@ -17,6 +17,7 @@ from foparq.audit import audit_to
 from foparq.cli.main import run
 from foparq.report.balances import balance_note, balance_rows
 from foparq.report.files import Written
+from foparq.report.page.tables import element_views
 from foparq.report.words import LANGUAGES, Words
 
 HOSTILE = "<b>porta</b>"
@@ -113,6 +114,7 @@ def test_the_decision_that_is_proposed_is_one_when_it_is_filled_in(done: tuple[W
     proposed = rows["janela / N"].decision
     with pytest.raises(tomllib.TOMLDecodeError):
         tomllib.loads(proposed)
+    assert all("#" in line for line in proposed.splitlines() if line.startswith(("counted", "by", "reason")))
     filled = proposed.replace("counted = ", "counted = 5").replace('""', '"a"')
     (table,) = tomllib.loads(filled)["decision"]
     assert table == {"element": "Q5", "class": "janela", "facade": "N", "counted": 5, "by": "a", "reason": "a"}
@@ -137,3 +139,18 @@ def test_the_terminal_says_it_in_a_line_a_class(tmp_path: Path, capsys: pytest.C
     shown = capsys.readouterr().out
     (line,) = (line for line in shown.splitlines() if line.strip().startswith("janela / N  "))
     assert "required 6, found 4–5, missing 1–2, surplus 0" in line
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_an_open_rate_is_shown_from_least_to_most(done: tuple[Written, Path], language: str) -> None:
+    """Of seven features six are windows: one or two of them are missing; of the doors one is too many either way."""
+    words = Words(language)
+    shown = {one.id: one.value for one in element_views(words, done[0].record)}
+    assert shown["Q5"] == f"{words.quantity(1 / 7, '1')}–{words.quantity(2 / 7, '1')}"
+    assert shown["Q4"] == words.quantity(1 / 7, "1")
+
+
+def test_measures_are_named_in_the_language_of_the_page(done: tuple[Written, Path]) -> None:
+    named = {one.id: one.measure for one in element_views(Words("pt-BR"), done[0].record)}
+    assert named["Q5"] == "taxa de itens ausentes (7)"
+    assert named["Q4"] == "taxa de itens excedentes (3)"

@@ -46,3 +46,10 @@ def test_remarks_stand_apart(rejected: AuditRecord) -> None:
     told = headline(EN, replace(rejected, quality=quality), (), "")
     assert len(told.remarks) == 1
     assert not set(told.remarks) & set(told.why)
+
+
+def test_what_stands_above_is_not_said_again(rejected: AuditRecord) -> None:
+    reason = because("absolute.none", element="Q1-X")
+    said = replace(rejected, quality=replace(rejected.quality, why=(reason,)))
+    (first, *_) = causes(said, **{"Q1-X": ElementStatus.FAIL})
+    assert (first.anchor, first.mend) == ("e-Q1-X", "")

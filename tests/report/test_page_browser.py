@@ -74,6 +74,16 @@ def test_it_is_quiet_and_fits(browser: "Browser", path: Path, width: int) -> Non
     assert shown.quiet()
 
 
+def test_results_are_seen_on_a_telephone_without_moving_the_table(browser: "Browser", path: Path) -> None:
+    shown = Shown(browser, path, width=390)
+    states = shown.page.locator("main:visible .elements .state").all()
+    assert states
+    for state in states:
+        box = state.bounding_box()
+        assert box is not None
+        assert 0 <= box["x"] < box["x"] + box["width"] <= 390
+
+
 def test_the_language_is_chosen_by_mouse_and_by_keyboard(browser: "Browser", path: Path) -> None:
     shown = Shown(browser, path)
     heading = shown.page.locator("h1:visible")

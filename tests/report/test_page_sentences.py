@@ -74,3 +74,18 @@ def test_the_meaning_of_a_rule_is_the_first_paragraph_of_its_manual() -> None:
     assert meaning.endswith(".")
     assert "\n" not in meaning
     assert len(meaning) < 400
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"), [(3e-7, "3 × 10⁻⁷"), (0.0, "0"), (0.0005, "0,001"), (0.91, "0,91"), (-8.2e-5, "-8 × 10⁻⁵")]
+)
+def test_a_bare_number_that_is_not_nought_is_not_written_as_nought(value: float, shown: str) -> None:
+    assert Words("pt-BR").quantity(value, "") == shown
+
+
+def test_the_parts_of_a_drawing_are_items_and_never_elements_on_the_page() -> None:
+    """An element is one of quality (ISO 19157); what a file holds is an item, in every table and sentence."""
+    for language in LANGUAGES:
+        words = Words(language)
+        shown = {words(f"report.column.{name}") for name in ("element", "featid", "other")}
+        assert shown == ({"Item", "Other item"} if language == "en" else {"Item", "Outro item"})

@@ -101,3 +101,23 @@ def test_the_worst_is_that_of_the_greatest_share_of_its_limit(measured: AuditRec
     worst = measured.quality.worst
     assert worst is not None
     assert (worst[0].id, worst[1].id) == ("Q1-Z", "P2")
+
+
+def test_only_the_outlier_bears_its_id_on_the_drawing(measured: AuditRecord) -> None:
+    vectors = re.findall(r'<g class="vector [^"]*".*?</g></g>', page(measured))
+    assert {re.sub("<[^>]*>", "", found) for one in vectors for found in re.findall("<text.*?</text>", one)} == {"P2"}
+    assert all(("<text" in one) == ('class="vector outlier"' in one) for one in vectors)
+
+
+def test_each_point_has_its_coordinates_in_the_manner_of_the_language(measured: AuditRecord) -> None:
+    text = page(measured)
+    assert text.count("x 19.000; y 12.500; z 7.400 m") == text.count("x 19,000; y 12,500; z 7,400 m") == 3
+    assert text.count("Diferenças normais ficam perto da reta.") == 1
+
+
+def test_the_note_says_what_a_stroke_is_worth(measured: AuditRecord) -> None:
+    """A stroke of a length on the drawing is that length over the factor."""
+    found = re.search(r"enlarged (\d+) times: one of ([\d.]+) m on the drawing is ([\d.]+) mm", page(measured))
+    assert found is not None
+    factor, drawn, true = map(float, found.groups())
+    assert true / 1000 * factor == pytest.approx(drawn, rel=0.01)

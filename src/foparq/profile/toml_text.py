@@ -75,6 +75,8 @@ def read_toml(path: Path, kind: type[UsageError]) -> TomlText:
         found = _PLACE.search(str(error))
         line = int(found[1]) if found else len(text.splitlines())
         shown = text.splitlines()[line - 1].strip() if 0 < line <= len(text.splitlines()) else ""
+        if (key := _KEY.match(shown)) and not shown.partition("=")[2].split("#")[0].strip():
+            raise kind("toml.no-value", file=str(path), line=line, key=key["key"][:_SHOWN]) from None
         raise kind("toml.syntax", file=str(path), line=line, value=shown[:_SHOWN], example=_quoted(shown)) from None
     except ValueError:
         # Python turns no text of thousands of digits into a number.

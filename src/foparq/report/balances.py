@@ -121,7 +121,7 @@ def _decision(words: Words, balance: ClassBalance, quality: QualityReport) -> st
             f"class = {quoted(balance.feature_class)}",
             *facade,
             f"counted =   # {words('report.balance.between', low=low, high=high)}",
-            'by = ""',
-            'reason = ""',
+            f'by = ""   # {words("report.balance.by")}',
+            f'reason = ""   # {words("report.balance.reason")}',
         ]
     )

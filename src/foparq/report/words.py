@@ -25,6 +25,7 @@ _LADDERS = {
     "1": ((1e-4, "%", 1e2, 4), (float("inf"), "%", 1e2, 2)),
     "items": ((float("inf"), "", 1.0, 0),),
 }
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class Words:
@@ -93,9 +94,15 @@ class Words:
         return self.number(value, 0)
 
     def quantity(self, value: float, unit: str) -> str:
-        """Quantity as people write it: ``"9,79 mm"``, ``"15 mm"``, ``"0,3 m²"``, ``"6,76 %"``."""
+        """Quantity as people write it: ``"9,79 mm"``, ``"15 mm"``, ``"0,3 m²"``, ``"6,76 %"``.
+
+        A bare number that is not nought is not written as nought: ``"3 × 10⁻⁷"``.
+        """
         ladder = _LADDERS.get(unit, ((float("inf"), unit, 1.0, 3),))
         name, factor, decimals = next((row[1:] for row in ladder if abs(value) < row[0]), ladder[-1][1:])
+        if not unit and 0.0 < abs(value) < 0.5 * 10.0**-decimals:
+            digit, power = f"{value:.0e}".split("e")
+            return f"{digit} × 10{str(int(power)).translate(_RAISED)}"
         text = self.number(value * factor, decimals)
         if decimals:
             text = text.rstrip("0").rstrip(".,")

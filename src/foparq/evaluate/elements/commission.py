@@ -59,6 +59,8 @@ def commission(spec: CommissionSpec, evidence: Evidence) -> tuple[Element, ...]:
     parameters = [("surplus", float(surplus), "items"), ("delivered", float(delivered), "items")]
     if (most := sum(row.surplus_most for row in known)) > surplus:
         parameters.append(("surplus-most", float(most), "items"))
+        if required:
+            parameters.append(("rate-most", most / required, "1"))
     if delivered:
         parameters.append(("share-of-delivered", surplus / delivered, "1"))
     remarks = (*decided(every, spec.id), *unmapped(counts, spec.id))

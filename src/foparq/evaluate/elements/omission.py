@@ -63,7 +63,7 @@ def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
         ("missing-net", float(net), "items"), ("accepted", float(sum(row.accepted for row in known)), "items"),
     ]  # fmt: skip
     if (least := sum(row.missing_least for row in known)) < missing:
-        parameters.append(("missing-least", float(least), "items"))
+        parameters += [("missing-least", float(least), "items"), ("rate-least", least / required, "1")]
     if required:
         parameters.append(("net-rate", net / required, "1"))
     remarks = (*placed(known, spec.id), *decided(every, spec.id), *unmapped(counts, spec.id))

@@ -134,14 +134,17 @@ def _figure(words: Words, record: AuditRecord, listing: Listing, picture: Pictur
     marks = mark_views(words, listing, picture, suffix)
     arrows, factor = vectors(words, record, picture)
     notes = _notes(words, listing, picture, len(marks))
+    bar = _bar(words, picture)
     if arrows:
-        notes = (*notes, words("report.residuals.vectors", factor=words.count(factor)))
+        true = bar[0] * picture.width * picture.quantum / factor
+        told = words("report.residuals.vectors", factor=words.count(factor), length=bar[1], true=(true, "m"))
+        notes = (*notes, told)
     return FigureView(
         picture=picture,
         file=printable(drawing.path),
         marks=marks,
         vectors=arrows,
-        bar=_bar(words, picture),
+        bar=bar,
         about=words("report.drawing.about-facade" if drawing.facade else "report.drawing.about", **about),
         notes=notes,
     )

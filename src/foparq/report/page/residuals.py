@@ -28,6 +28,7 @@ class Row:
     bar: tuple[float, float]  #: left end and width, between -100 and 100
     standing: str
     where: str
+    place: str  #: delivered coordinates; ``""`` of what has none
     mark: str  #: ``outlier``, ``aside`` (does not count) or ``""``
 
 
@@ -63,6 +64,7 @@ class Vector:
     dx: float
     dy: float
     title: str
+    label: str  #: id of an outlier, else ``""``
     mark: str
 
 
@@ -107,7 +109,14 @@ def _row(words: Words, row: Residual, full: float) -> Row:
         id=printable(row.id), difference=_metres(words, row.difference), standing=standing_words(words, row),
         normalised="–" if row.normalised is None else words.number(row.normalised, 2), mark=_mark(row),
         bar=(round(min(0.0, length), 2), round(abs(length), 2)), where=tied_words(words, row),
+        place=_place(words, row),
     )  # fmt: skip
+
+
+def _place(words: Words, row: Residual) -> str:
+    if row.place is None:
+        return ""
+    return words("report.residuals.place", **dict(zip("xyz", map(float, row.place), strict=True)))
 
 
 def _dots(words: Words, residuals: Residuals) -> tuple[Dot, ...]:
@@ -140,6 +149,7 @@ def vectors(words: Words, record: AuditRecord, picture: Picture) -> tuple[tuple[
     return tuple(
         Vector(
             x=float(x), y=float(y), dx=round(float(dx)), dy=round(float(dy)), title=_told(words, point),
+            label=printable(point.id) if point.outlier else "",
             mark="outlier" if point.outlier else "" if point.counted else "aside",
         )
         for point, (x, y), (dx, dy) in zip(points, spots, moved, strict=True)

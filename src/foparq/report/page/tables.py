@@ -26,6 +26,7 @@ from foparq.report.words import Words, printable
 OPEN = frozenset({ElementStatus.UNDECIDED, ElementStatus.NOT_ASSESSED})
 TAKEN_IN = frozenset({SourceStatus.READ, SourceStatus.RECOVERED})
 _COUNTED = frozenset({"drawing", "checkpoints", "distances", "features"})  #: roles whose items or rows are told
+_OTHER_RATES = frozenset({"rate-least", "rate-most"})  #: of completeness, by the other reading of the drawings
 _FIRST = 5  #: things to mend that the headline names
 _FILES_NAMED = 3
 
@@ -118,7 +119,8 @@ def _causes(words: Words, record: AuditRecord, faults: Sequence[Group], suffix: 
             causes += [_fault(words, left.pop(name), suffix) for name in counted]
             kind = (element.element, element.measure_id)
             if not counted and element.why and kind not in told:
-                mend = reason_sentence(words, element.why[0])
+                told_above = element.why[0] in record.quality.why
+                mend = "" if told_above else reason_sentence(words, element.why[0])
                 causes.append(
                     Cause(anchor=f"e-{element.id}{suffix}", title=element_title(words, element), found="", mend=mend)
                 )
@@ -228,9 +230,9 @@ def _element_view(words: Words, element: Element) -> ElementView:
     return ElementView(
         id=printable(element.id),
         element=element_title(words, element),
-        measure=f"{element.measure_name} ({element.measure_id})",
+        measure=_measure(words, element),
         scope=printable(element.scope),
-        value="–" if element.value is None else words.quantity(element.value, element.unit),
+        value=_value(words, element),
         limit=limit.strip() or "–",
         n=words.count(element.n),
         status=element.status.value,
@@ -244,6 +246,21 @@ def _element_view(words: Words, element: Element) -> ElementView:
         ),
         details=tuple((printable(name), _share(words, found, out_of)) for name, found, out_of in element.details),
     )
+
+
+def _measure(words: Words, element: Element) -> str:
+    name = words.find(f"evaluate.measure.{element.measure_id}") or printable(element.measure_name)
+    return f"{name} ({printable(element.measure_id)})"
+
+
+def _value(words: Words, element: Element) -> str:
+    """Value with its unit, from-to where drawings allow several; a bare statistic with its symbol."""
+    if element.value is None:
+        return "–"
+    other = [value for name, value, _ in element.parameters if name in _OTHER_RATES]
+    told = "–".join(words.quantity(value, element.unit) for value in sorted([element.value, *other]))
+    symbol = f"report.symbol.{element.measure_id}"
+    return words(symbol, value=told) if words.find(symbol) else told
 
 
 def _share(words: Words, found: float, out_of: float) -> str:
