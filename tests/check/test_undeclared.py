@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Layers that look like a coverage and are not declared as one."""
 
+from dataclasses import fields, replace
+
 import numpy as np
 import pytest
 import shapely
@@ -89,3 +91,17 @@ def test_the_proposed_line_settles_it() -> None:
     outcomes = check_part(part, PROFILE, 50.0).outcomes
     gap = one(GAP, delivery=drawn(part), outcomes=outcomes)
     assert (gap.value, gap.n) == (0.0, len(GRID))
+
+
+@pytest.mark.parametrize("points", [2, 3, 9])
+def test_lines_of_no_extent_say_nothing_and_harm_nothing(points: int) -> None:
+    grid = drawing(GRID)
+    dot = np.empty(1, dtype=object)
+    dot[0] = shapely.LineString([(9.0, 9.0)] * points)
+    items = Items(**{
+        name: np.concatenate([getattr(grid.items, name), dot if name == "geometry" else getattr(grid.items, name)[:1]])
+        for name in (field.name for field in fields(Items))
+    })  # fmt: skip
+    checked = check_part(replace(grid, items=items), PROFILE, 50.0)
+    assert not checked.log
+    assert {pattern for outcome in checked.outcomes for pattern in outcome.undeclared} == {"PISO[[]1]"}

@@ -10,6 +10,7 @@ from foparq.geom.overlaps import line_overlaps
 from foparq.model.inputs import Lines
 from foparq.model.items import Role
 
+_RING_VERTICES = 4
 _FEWEST = 3  #: closed lines of a layer
 _LAYERS = 100  #: layers that are looked at, those with the most closed lines
 _SHARED = 0.25  #: of its length that a closed line shares with others: half of two sides of a square
@@ -39,6 +40,8 @@ def undeclared_coverages(columns: Columns, *, coincide: float) -> tuple[str, ...
     with np.errstate(invalid="ignore", over="ignore"):  # coordinates may be anything
         lines = lines[np.isfinite(shapely.length(columns.geometry[lines]))]
     closed = lines[shapely.is_ring(columns.geometry[lines])]
+    # A line of no extent counts as a ring too, and bounds nothing.
+    closed = closed[shapely.get_num_points(columns.geometry[closed]) >= _RING_VERTICES]
     layers, number, count = np.unique(columns.layer[closed].astype(str), return_inverse=True, return_counts=True)
     of_layer = np.split(closed[np.argsort(number, kind="stable")], np.cumsum(count)[:-1])
     most = sorted(np.argsort(-count, kind="stable")[:_LAYERS].tolist())
