@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What columns hold: array types by the kind of their values.
+"""What columns hold: array types by the kind of their values, and sets of row numbers.
 
 The shape stands where a column is declared: ``(n,)``, ``(n, 3)``.
 """
@@ -14,3 +14,23 @@ Index = NDArray[np.intp]  #: row numbers and counts
 Integers = NDArray[np.int32]
 Reals = NDArray[np.float64]
 Texts = NDArray[np.object_]  #: str
+
+
+def union(*columns: Index) -> Index:
+    """Rows that stand in any of some columns, each once, in order.
+
+    Notes
+    -----
+    O(n log n) by sorting: ``numpy.unique`` of whole numbers goes through a hash table since numpy 2.3, which takes ten
+    times as long for a million rows.
+
+    Examples
+    --------
+    >>> union(np.array([3, 1]), np.array([1, 2])).tolist()
+    [1, 2, 3]
+    """
+    rows: Index = np.sort(np.concatenate([np.empty(0, dtype=np.intp), *columns]))
+    first = np.ones(len(rows), dtype=bool)
+    first[1:] = rows[1:] != rows[:-1]
+    distinct: Index = rows[first]
+    return distinct

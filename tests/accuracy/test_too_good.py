@@ -34,3 +34,8 @@ def test_the_published_height_of_seven_points_is_possible_and_a_copy_is_not() ->
     """Campos et al. 2015: RMSE 1.1 mm in Y beside a survey of 3 mm."""
     assert 1e-3 < too_good(np.full(7, 0.0011), 0.003, 0.0) < 1e-2
     assert too_good(np.zeros(7), 0.003, 0.001) < 1e-5  # the same digits, to the millimetre
+
+
+@pytest.mark.parametrize(("sd", "p"), [(1e200, 0.0), (1e-200, 1.0), (5e-324, 1.0), (1.7e308, 0.0)])
+def test_a_standard_deviation_may_be_anything_positive(sd: float, p: float) -> None:
+    assert too_good([0.001, -0.002, 0.0], sd, 0.001) == p

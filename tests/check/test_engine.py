@@ -432,6 +432,7 @@ ODD = {
     "hole without vertices": "POLYGON ((8 8, 9 8, 9 9, 8 9, 8 8), EMPTY)", "empty": "POLYGON EMPTY",
     "hole outside, deep": "POLYGON Z ((8 8 4, 9 8 4, 9 9 4, 8 9 4, 8 8 4), (20 20 4, 21 20 4, 21 21 4, 20 20 4))",
     "no number, deep": "LINESTRING Z (5 5 nan, 6 6 2)", "bow tie": "POLYGON ((8 8, 9 9, 9 8, 8 9, 8 8))",
+    "beyond numbers": "POLYGON ((1e308 -1e308, 9 8, 9 9, 1e308 -1e308))",
 }  # fmt: skip
 
 
@@ -589,3 +590,16 @@ def test_one_rising_line_among_many_does_not_turn_a_drawing() -> None:
     assert outcome(checked, "undershoot").because is Because.RAN
     few = check(drawing([*many[:20], rising]), "undershoot")
     assert outcome(few, "undershoot").because in {Because.PLANE_DOUBTFUL, Because.PLANE_CONTRADICTED}
+
+
+@pytest.mark.parametrize("name", ["xy", "xz", "yz"])
+@pytest.mark.parametrize("holes", ["", ", (2 2 0, 2 3 0, 3 3 0, 2 2 0)"])
+def test_a_ring_that_closes_in_plan_only_is_open_in_an_elevation(name: str, holes: str) -> None:
+    """Its item alone is not judged as an area."""
+    ring = f"POLYGON Z ((0 0 1, 9 0 0, 9 9 5, 0 9 5, 0 0 0){holes})"
+    others = [f"POLYGON Z (({x} 20 0, {x + 1} 20.5 0, {x + 1} 21 3, {x} 20 0))" for x in range(3)]
+    thing = drawing([*others, ring])
+    checked = check(replace(thing, plane=plane_of(name, thing.items.geometry), areas=("*",)))
+    assert not checked.log
+    judged = outcome(checked, "area-overlap")
+    assert [one.item for one in judged.aside] == ([] if name == "xy" else [thing.items.item[3]])

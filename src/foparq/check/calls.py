@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Calls of rules: which rule, on which layers, with which tolerances, and what it may not judge."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from foparq.check.rule import Rule
 from foparq.check.subject import Patterns, Subject
-from foparq.columns import Flags, Index
+from foparq.columns import Flags, Index, union
 from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, SetAside, Status
 from foparq.model.inputs import Named
@@ -119,8 +119,8 @@ class Judged:
 def judged(call: Call, rules: Mapping[str, Rule], outcomes: Sequence[Outcome], subject: Subject) -> Judged:
     """Inputs of a call: without repetitions, with what required rules found at fault set aside from judgement."""
     blamed = {code: _faulty(outcomes, code) for code in call.rule.requires}
-    repeated = _union(rows for code, rows in blamed.items() if rules[code].repeats)
-    at_fault = _union(rows for code, rows in blamed.items() if not rules[code].repeats)
+    repeated = union(*(rows for code, rows in blamed.items() if rules[code].repeats))
+    at_fault = union(*(rows for code, rows in blamed.items() if not rules[code].repeats))
     inputs: list[Named] = []
     aside: list[Flags] = []
     for (_, kind), layers in zip(call.rule.inputs, call.layers, strict=True):
@@ -129,19 +129,14 @@ def judged(call: Call, rules: Mapping[str, Rule], outcomes: Sequence[Outcome], s
         aside.append(np.isin(rows.row, at_fault))
     first = subject.take(call.rule.subject, call.layers[0])
     unfit = first.unfit
-    blamed_here = np.intersect1d(_union(blamed.values()), first.rows.row)
-    unjudged = np.union1d(unfit, blamed_here)
+    blamed_here = np.intersect1d(union(*blamed.values()), union(first.rows.row), assume_unique=True)
+    unjudged = union(unfit, blamed_here)
     named = _named(subject, unfit, blamed, blamed_here, _telling(call, rules, outcomes))
     return Judged(tuple(inputs), tuple(aside), unjudged, named)
 
 
 def _faulty(outcomes: Sequence[Outcome], code: str) -> Index:
-    return _union(outcome.faulty for outcome in outcomes if outcome.rule == code)
-
-
-def _union(columns: Iterable[Index]) -> Index:
-    rows: Index = np.unique(np.concatenate([np.empty(0, dtype=np.intp), *columns]))
-    return rows
+    return union(*(outcome.faulty for outcome in outcomes if outcome.rule == code))
 
 
 def _telling(call: Call, rules: Mapping[str, Rule], outcomes: Sequence[Outcome]) -> dict[str, tuple[str, bool]]:
@@ -159,7 +154,7 @@ def _named(
     for code in sorted(blamed, key=lambda code: not rules[code][1]):
         for row in blamed[code].tolist():
             why.setdefault(row, rules[code])
-    rows = [*unfit.tolist(), *np.setdiff1d(here, unfit).tolist()]
+    rows = [*unfit.tolist(), *np.setdiff1d(here, unfit, assume_unique=True).tolist()]
     nobody = ("", False)
     rows = sorted(rows, key=lambda row: why.get(row, nobody)[1])[:_NAMED]
     items, layers = subject.named(np.array(rows, dtype=np.intp))

@@ -17,6 +17,7 @@ from foparq.check.registry import all_rules, in_order
 from foparq.check.rule import Rule
 from foparq.check.subject import Subject, kind_of_subject
 from foparq.check.told import findings_of
+from foparq.columns import union
 from foparq.findings.because import Because
 from foparq.findings.hits import NOBODY, Deviations, Hits
 from foparq.findings.outcome import Outcome, Status
@@ -204,7 +205,7 @@ def _looked(
     undeclared = subject.undeclared(call.rule.subject, visible)
     outcome = replace(outcome, parameters=call.parameters, undeclared=undeclared)
     seen = judged(call, rules, outcomes, subject)
-    small = subject.too_small(np.union1d(seen.inputs[0].row, seen.unjudged), visible)
+    small = subject.too_small(union(seen.inputs[0].row, seen.unjudged), visible)
     outcome = replace(outcome, unjudged=seen.unjudged, aside=seen.named, small=small)
     empty = not any(len(rows) for rows in seen.inputs) and not subject.examined(call.rule.subject)
     if empty and not len(seen.unjudged):
@@ -223,7 +224,7 @@ def _looked(
         status=Status.FAULTY if len(hits) else Status.CLEAN,
         checked=subject.counted(seen.inputs[0].row[~seen.aside[0]], rows),
         found=len(hits),
-        faulty=np.unique(rows[rows >= 0]),
+        faulty=union(rows[rows >= 0]),
         deviations=deviations,
     )
     return outcome, findings_of(call, subject, seen.inputs, hits) if len(hits) and not call.spec.helper else None

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foparq.columns import Index
+from foparq.columns import Index, union
 from foparq.evaluate.evidence import Evidence, Judgement, judged, unseen
 from foparq.evaluate.measures import measure_counting
 from foparq.evaluate.quality import ElementStatus, Reason, because
@@ -205,7 +205,7 @@ def _extent(evidence: Evidence, counted: Sequence[Outcome]) -> tuple[float, floa
 
 def _distinct(columns: Iterable[Index]) -> Index:
     """(k,) distinct rows of a part's items."""
-    rows = np.unique(np.concatenate([np.empty(0, dtype=np.intp), *columns]))
+    rows = union(*columns)
     items: Index = rows[rows >= 0]
     return items
 

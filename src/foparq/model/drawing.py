@@ -236,8 +236,12 @@ class Drawing(Part):
     def extent(self, rows: Index) -> float:
         """Length of the linework of some items in the plane, metres; what has no finite length adds nothing."""
         chosen = self.items.geometry[rows]
-        coordinates = np.nan_to_num(shapely.get_coordinates(chosen, include_z=True))
+        area = shapely.get_type_id(chosen) == shapely.GeometryType.POLYGON
+        lines = np.concatenate([chosen[~area], shapely.get_rings(chosen[area])])
+        coordinates, of = shapely.get_coordinates(lines, include_z=True, return_index=True)
+        coordinates[:, 2] = np.nan_to_num(coordinates[:, 2])
         with np.errstate(over="ignore", invalid="ignore"):  # coordinates may be anything
-            flat = self.plane.project(coordinates, self.unit.metres or 1.0)[:, :2]
-            lengths = shapely.length(shapely.set_coordinates(shapely.force_2d(chosen), flat))
-        return float(np.sum(lengths[np.isfinite(lengths)]))
+            flat = self.plane.project(coordinates, self.unit.metres or 1.0)
+            step = np.diff(flat[:, :2], axis=0)[of[1:] == of[:-1]]
+            length = np.hypot(step[:, 0], step[:, 1])
+        return float(np.sum(length[np.isfinite(length)]))

@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 
 from foparq.check.layers import matching
-from foparq.columns import Coordinates, Flags, Geometries, Index, Reals, Texts
+from foparq.columns import Coordinates, Flags, Geometries, Index, Reals, Texts, union
 from foparq.geom.areas import measurable
 from foparq.geom.rounding import FARTHEST
 from foparq.model.drawing import Drawing
@@ -58,9 +58,11 @@ class Columns:
         flat[:, 2] = np.nan_to_num(flat[:, 2], posinf=np.inf, neginf=-np.inf)
         with np.errstate(invalid="ignore", over="ignore"):  # coordinates may be anything
             sheet = self.drawing.plane.project(flat, self.metres)
+            # What is too far for a number is infinitely far: a ring whose first vertex were none would not be closed.
+            sheet[np.isnan(sheet) & ~np.isnan(flat).any(axis=1, keepdims=True)] = np.inf
             # What is no number has no depth that could matter to others.
             deep = bool(np.any(np.nan_to_num(sheet[:, 2], posinf=0.0, neginf=0.0)))
-            moved: Geometries = shapely.force_3d(geometry.copy()) if deep else shapely.force_2d(geometry.copy())
+            moved = _opened(shapely.force_3d(geometry.copy()) if deep else shapely.force_2d(geometry.copy()), sheet)
             placed: Geometries = shapely.set_coordinates(moved, sheet if deep else sheet[:, :2])
         return placed
 
@@ -170,3 +172,24 @@ def _spread(sheet: Coordinates) -> Reals:
     low, high = np.quantile(sheet, [_STRAYS, 1 - _STRAYS], axis=0)
     spread: Reals = high - low
     return spread
+
+
+def _opened(geometry: Geometries, sheet: Coordinates) -> Geometries:
+    """Areas with a ring that does not close on the sheet as the lines that they are; all else as it is.
+
+    A ring may close in the file's x and y and end at another height: seen in an elevation, it is open.
+    """
+    area = np.flatnonzero(shapely.get_type_id(geometry) == _POLYGON)
+    rings, owner = shapely.get_rings(geometry[area], return_index=True)
+    drawn = shapely.get_num_coordinates(rings) > 0
+    rings, owner = rings[drawn], area[owner[drawn]]
+    if not len(rings):
+        return geometry
+    all_sizes, sizes = shapely.get_num_coordinates(geometry), shapely.get_num_coordinates(rings)
+    begin, before = np.cumsum(all_sizes) - all_sizes, np.cumsum(sizes) - sizes
+    first = begin[owner] + before - before[np.searchsorted(owner, owner)]
+    apart = (sheet[first, :2] != sheet[first + sizes - 1, :2]).any(axis=1)
+    for row in union(owner[apart]).tolist():
+        lines = [shapely.LineString(ring.coords) for ring in rings[owner == row]]
+        geometry[row] = lines[0] if len(lines) == 1 else shapely.MultiLineString(lines)
+    return geometry

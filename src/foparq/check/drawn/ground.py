@@ -9,8 +9,8 @@ import numpy as np
 import shapely
 
 from foparq.check.drawn.columns import Columns
-from foparq.check.drawn.extent import boxes_of, main_extent
 from foparq.columns import Coordinates, Flags, Geometries, Reals, Texts
+from foparq.geom.extent import boxes_of, main_box
 from foparq.match.linework import Footing, Linework, footing, stands_in_space
 from foparq.model.drawing import Drawing
 from foparq.model.inputs import Lines
@@ -106,7 +106,8 @@ class Ground:
 
     def longest(self) -> float:
         """Length of the longest line that fits into the box of the drawing, without strays."""
-        return float(np.linalg.norm(main_extent(boxes_of(self.work.lines))))
+        low, high = main_box(boxes_of(self.work.lines))
+        return float(np.linalg.norm(high - low))
 
 
 def ground_of(drawing: Drawing) -> Ground | None:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from foparq.check.drawn.extent import boxes_of, main_extent
 from foparq.columns import Geometries, Reals
+from foparq.geom.extent import boxes_of, main_box, middle
 from foparq.model.drawing import Dimensions, Drawing, UnitOrigin
 from foparq.model.inputs import UnitEvidence
 from foparq.model.items import Role
@@ -183,11 +183,12 @@ def _implausible(drawing: Drawing, metres: float, largest: float) -> float | Non
     boxes = boxes_of(drawing.items.geometry[seen])
     if len(boxes) == 0:
         return None
-    together = float(main_extent(boxes).max()) * metres
+    low, high = main_box(boxes)
+    together = float((high - low).max()) * metres
     if together == 0:
         return None
     if together < _SMALLEST:
         return float(together)
-    middle = np.quantile(boxes[:, 3:], 0.9, axis=0) - np.quantile(boxes[:, :3], 0.1, axis=0)
-    spread = float(np.max(middle)) * metres
+    low, high = middle(boxes)
+    spread = float(np.max(high - low)) * metres
     return spread if spread > largest else None

@@ -14,7 +14,7 @@ from foparq.check.drawn.stance import better_plane
 from foparq.check.drawn.unit_evidence import against
 from foparq.check.layers import literal, matches
 from foparq.check.subject import NO_DOUBT, Doubt, Patterns, Places, Subject, Taken, subject
-from foparq.columns import Geometries, Index, Texts
+from foparq.columns import Geometries, Index, Texts, union
 from foparq.findings.because import Because
 from foparq.findings.hits import Hits
 from foparq.findings.outcome import Outcome, Status
@@ -127,14 +127,14 @@ class DrawingSubject(Subject):
         if not len(rows):
             return 1  # a statement about the file: the file was checked
         drawn = rows[self.drawing.items.role[rows] != Role.POINT]
-        return len(np.unique(np.concatenate([drawn, faulty[faulty >= 0]])))
+        return len(union(drawn, faulty[faulty >= 0]))
 
     def too_small(self, rows: Index, visible: float) -> Index:
         """Lines and areas that fit into a smaller circle; points have no size."""
         if visible not in self._small:
             drawn = np.flatnonzero(self.columns.role != Role.POINT)
             self._small[visible] = self.columns.rows[drawn[smaller_than(self.columns.geometry[drawn], visible)]]
-        found: Index = np.intersect1d(rows, self._small[visible])
+        found: Index = np.intersect1d(rows, self._small[visible], assume_unique=True)
         return found
 
     def undeclared(self, kind: type, visible: float) -> tuple[str, ...]:
@@ -186,7 +186,7 @@ class DrawingSubject(Subject):
         on = np.concatenate([np.empty(0, dtype=np.intp), *named])
         rows = self.columns.build(kind, on)
         every = self.columns.rows[self.columns.of_kind(kind, on)]
-        return Taken(rows, np.setdiff1d(every, rows.row))
+        return Taken(rows, np.setdiff1d(union(every), union(rows.row), assume_unique=True))
 
 
 def _agree(outcome: Outcome) -> list[tuple[str, float]]:

@@ -5,14 +5,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 
-from foparq.columns import Coordinates, Reals
+from foparq.columns import Reals
+from foparq.geom.extent import boxes_of, main_box
 from foparq.model.drawing import Drawing
 from foparq.model.items import Role
 
 _THOUSAND = 1000.0
-_STRAY = 20.0  #: so many times the extent of nearly all away is no part of the drawing
 _SPREAD = 0.05  #: of the diagonal: points nearer together do not lie about the drawing
 _SHORT = 0.01  #: of the diagonal: no distance beyond is none that was measured for this drawing
 
@@ -35,20 +34,11 @@ def extent_of(drawing: Drawing) -> Extent | None:
     if drawing.unit.metres is None:
         return None
     drawn = drawing.visible_rows() & np.isin(drawing.items.role, [Role.LINE.value, Role.AREA.value, Role.POINT.value])
-    points = shapely.get_coordinates(drawing.items.geometry[drawn], include_z=True)
-    points = np.nan_to_num(points[np.isfinite(points[:, :2]).all(axis=1)]) * drawing.unit.metres
-    if not len(points):
+    boxes = boxes_of(drawing.items.geometry[drawn]) * drawing.unit.metres
+    if not len(boxes):
         return None
-    kept = points[_near(points).all(axis=1)]
-    low, high = kept.min(axis=0).tolist(), kept.max(axis=0).tolist()
+    low, high = (corner.tolist() for corner in main_box(boxes))
     return Extent((low[0], low[1], low[2]), (high[0], high[1], high[2]))
-
-
-def _near(points: Coordinates) -> np.ndarray:
-    low, high = np.quantile(points, [0.05, 0.95], axis=0)
-    reach = _STRAY * np.linalg.norm(high - low)
-    near: np.ndarray = (points >= low - reach) & (points <= high + reach)
-    return near
 
 
 def points_are_decimal(axes: Sequence[Reals], extents: Sequence[Extent]) -> bool:

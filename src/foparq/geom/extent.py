@@ -22,14 +22,23 @@ def boxes_of(geometry: Geometries) -> Reals:
     return boxes[np.isfinite(boxes).all(axis=1)]
 
 
-def main_extent(boxes: Reals) -> Reals:
-    """(3,) extent of boxes (n, 6) along each axis, without the few that reach far beyond the middle of all others."""
-    if not len(boxes):
-        return np.zeros(3)
+def middle(boxes: Reals) -> tuple[Reals, Reals]:
+    """Corners (3,) of the box that holds the middle four fifths of boxes (n, 6); of fewer than ten, all but one."""
     low = np.quantile(boxes[:, :3], 0.1, axis=0, method="higher")
     high = np.quantile(boxes[:, 3:], 0.9, axis=0, method="lower")
+    return low, high
+
+
+def main_box(boxes: Reals) -> tuple[Reals, Reals]:
+    """Corners (3,) around boxes (n, 6), without the few that reach far beyond the middle of all others.
+
+    Both are zero if there are none.
+    """
+    if not len(boxes):
+        return np.zeros(3), np.zeros(3)
+    low, high = middle(boxes)
     far = _FAR * max(1.0, _MANY / len(boxes)) * max(0.0, float(np.max(high - low)))
     stray = np.any((boxes[:, 3:] > high + far) | (boxes[:, :3] < low - far), axis=1)
-    kept = boxes[~stray] if np.count_nonzero(stray) <= max(1.0, _FEW * len(boxes)) else boxes
-    extent: Reals = kept[:, 3:].max(axis=0) - kept[:, :3].min(axis=0) if len(kept) else np.zeros(3)
-    return extent
+    few = np.count_nonzero(stray) <= max(1.0, _FEW * len(boxes)) and not stray.all()
+    kept = boxes[~stray] if few else boxes
+    return kept[:, :3].min(axis=0), kept[:, 3:].max(axis=0)
