@@ -4,27 +4,11 @@
 from pathlib import Path
 
 import pytest
+from tests.read.table_files import METRES, fault, written
 
-from foparq.errors import UnreadableError
-from foparq.profile.manifest import SurveySection
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
-from foparq.report.words import LANGUAGES, Words
 
-METRES = SurveySection(path="t.csv")
 SURVEYED = [[40.0351, 12.2058, 2.0117], [54.0649, 12.2027, 2.0194]]
-
-
-def written(folder: Path, text: str) -> Path:
-    path = folder / "t.txt"
-    path.write_text(text, encoding="utf-8")
-    return path
-
-
-def fault(path: Path) -> UnreadableError:
-    with pytest.raises(UnreadableError) as caught:
-        read_checkpoints(path, METRES)
-    assert all(Words(language).error(caught.value) for language in LANGUAGES)
-    return caught.value
 
 
 @pytest.mark.parametrize(

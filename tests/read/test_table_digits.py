@@ -8,7 +8,7 @@ import pytest
 
 from foparq.errors import UnreadableError
 from foparq.profile.manifest import SurveySection
-from foparq.read.table.numbers import number_of
+from foparq.read.table.numbers import _written_decimals, number_of
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
 
 METRES = SurveySection(path="t.csv")
@@ -128,3 +128,12 @@ def test_an_id_used_twice_names_both_lines(tmp_path: Path) -> None:
     with pytest.raises(UnreadableError) as caught:
         read_distances(table(tmp_path, "id,measured\nA,1\n\nB,2\nA,3\n"), METRES)
     assert (caught.value.fields["line"], caught.value.fields["other"]) == (5, 2)
+
+
+@pytest.mark.parametrize(
+    ("decimals", "written"),
+    [([4] * 8, 4), ([4, 4, 4, 4, 4, 4, 3, 0], 4), ([4, 4, 4, 4, 4, 3, 3, 0], 3), ([3, 3, 0], 3), ([4, 0, 0], 0),
+     ([5, 4, 3], 4), ([2], 2), ([0, 3, 3], 3), ([3, 0], 0)],
+)  # fmt: skip
+def test_a_column_is_written_to_the_digit_that_two_thirds_show(decimals: list[int], written: int) -> None:
+    assert _written_decimals(decimals) == written

@@ -6,28 +6,12 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.read.table_files import METRES, fault, written
 
-from foparq.errors import UnreadableError
 from foparq.model.drawing import SkippedReason
-from foparq.profile.manifest import SurveySection
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
-from foparq.report.words import LANGUAGES, Words
 
-METRES = SurveySection(path="t.csv")
 SIGNS = "#%!;'/*-~@&$"  #: what begins a comment somewhere
-
-
-def written(folder: Path, text: str) -> Path:
-    path = folder / "t.csv"
-    path.write_text(text, encoding="utf-8")
-    return path
-
-
-def fault(path: Path) -> UnreadableError:
-    with pytest.raises(UnreadableError) as caught:
-        read_checkpoints(path, METRES)
-    assert all(Words(language).error(caught.value) for language in LANGUAGES)
-    return caught.value
 
 
 @pytest.mark.parametrize("name", ["#9", "# 9", "#", "//7", "%1", "--", "!x", "'P1", "REM 1", "*"])

@@ -47,8 +47,8 @@ def read_checkpoints(path: Path, section: SurveySection, extents: Sequence[Exten
     Checkpoints
         In metres, in the order of the file. Delivered coordinates may be empty, or their columns left out: NaN. The
         resolution of an axis is half a unit of the last digit of its surveyed numbers plus the same of its delivered
-        ones. A column counts as written to its finest digit if two thirds of its numbers show that digit, for
-        spreadsheets drop trailing zeros; otherwise as written to its coarsest.
+        ones. A column counts as written to the digit that two thirds of its numbers show, for spreadsheets drop
+        trailing zeros.
 
     Raises
     ------
