@@ -594,9 +594,10 @@ def test_one_rising_line_among_many_does_not_turn_a_drawing() -> None:
 
 @pytest.mark.parametrize("name", ["xy", "xz", "yz"])
 @pytest.mark.parametrize("holes", ["", ", (2 2 0, 2 3 0, 3 3 0, 2 2 0)"])
-def test_a_ring_that_closes_in_plan_only_is_open_in_an_elevation(name: str, holes: str) -> None:
+@pytest.mark.parametrize("ends", [(1, 0), (0, 1)])
+def test_a_ring_that_closes_in_plan_only_is_open_in_an_elevation(name: str, holes: str, ends: tuple[int, int]) -> None:
     """Its item alone is not judged as an area."""
-    ring = f"POLYGON Z ((0 0 1, 9 0 0, 9 9 5, 0 9 5, 0 0 0){holes})"
+    ring = f"POLYGON Z ((0 0 {ends[0]}, 9 0 0, 9 9 5, 0 9 5, 0 0 {ends[1]}){holes})"
     others = [f"POLYGON Z (({x} 20 0, {x + 1} 20.5 0, {x + 1} 21 3, {x} 20 0))" for x in range(3)]
     thing = drawing([*others, ring])
     checked = check(replace(thing, plane=plane_of(name, thing.items.geometry), areas=("*",)))

@@ -8,7 +8,7 @@ import numpy as np
 
 from foparq.accuracy.differences import differences
 from foparq.accuracy.too_good import too_good
-from foparq.columns import Flags, Index, Reals, Texts
+from foparq.columns import Index, Reals, Texts
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Reason, because
 from foparq.findings.because import Because
@@ -214,10 +214,3 @@ def _worst(group: Index, size: Reals) -> Index:
     order = np.lexsort((np.arange(len(group)), -size, group))
     rows: Index = np.sort(order[np.unique(group[order], return_index=True)[1]])
     return rows
-
-
-def known(found: Reals) -> Reals:
-    """Differences that are numbers."""
-    finite: Flags = np.isfinite(found)
-    numbers: Reals = found[finite]
-    return numbers
