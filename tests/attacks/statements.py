@@ -86,8 +86,13 @@ def _with_stray(office: Office, _: np.random.Generator) -> Office:
     return office.change(tamper=(_stray,)).state("drawing", unit="mm").state("checkpoints", path=None)
 
 
-@attack("distances of 150 m beside a stray line", "evidence.too-long", office={**DXF, "unit": "m", "ends_by": "names"})
+@attack(
+    "distances of 150 m beside a stray line",
+    "evidence.too-long",
+    office={**DXF, "unit": "m", "ends_by": "names", "digits": 4},
+)
 def _long_with_stray(office: Office, rng: np.random.Generator) -> Office:
+    # Of three digits throughout nothing here proves that they are decimals: lengths in m and in mm are both too long.
     longer = 150 + rng.uniform(0, 20, len(office.lengths))
     return office.change(measured=office.measured + longer, lengths=office.lengths + longer, tamper=(_stray,))
 
