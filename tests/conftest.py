@@ -5,6 +5,11 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+#: how long an example takes says something of the machine, nothing of foparq
+settings.register_profile("untimed", deadline=None)
+settings.load_profile("untimed")
 
 #: scripts run by hand; they import each other as neighbours
 collect_ignore = ["tools"]
