@@ -21,15 +21,16 @@ def outcome(**changes: object) -> Outcome:
     return Outcome(**{**given, **changes})  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("order", list(itertools.permutations(range(4))))
+@pytest.mark.parametrize("order", list(itertools.permutations(range(5))))
 def test_hits_are_ordered_by_row_other_and_place(order: tuple[int, ...]) -> None:
-    row, other = np.array([1, 1, 1, 2]), np.array([NOBODY, 3, 3, 0])
-    where = shapely.points([[9, 9], [0, 5], [0, 7], [0, 0]])
+    # Of the places of one pair, the left one lies higher than both of the right.
+    row, other = np.array([1, 1, 1, 1, 2]), np.array([NOBODY, 3, 3, 3, 0])
+    where = shapely.points([[9, 9], [-1, 8], [0, 5], [0, 7], [0, 0]])
     mixed = list(order)
-    found = hits(row[mixed], where[mixed], np.array([1.0, 2.0, 3.0, 4.0])[mixed], other[mixed])
-    assert found.size.tolist() == [1.0, 2.0, 3.0, 4.0]
-    assert (found.row.tolist(), found.other.tolist()) == ([1, 1, 1, 2], [-1, 3, 3, 0])
-    assert [place.y for place in found.where] == [9, 5, 7, 0]
+    found = hits(row[mixed], where[mixed], np.array([1.0, 2.0, 3.0, 4.0, 5.0])[mixed], other[mixed])
+    assert found.size.tolist() == [1.0, 2.0, 3.0, 4.0, 5.0]
+    assert (found.row.tolist(), found.other.tolist()) == ([1, 1, 1, 1, 2], [-1, 3, 3, 3, 0])
+    assert [(place.x, place.y) for place in found.where] == [(9, 9), (-1, 8), (0, 5), (0, 7), (0, 0)]
 
 
 def test_hits_without_a_second_item_name_nobody() -> None:

@@ -79,6 +79,17 @@ def test_line_straight_into_the_depth_has_two_ends() -> None:
     assert kinds.tolist() == [EndKind.FREE, EndKind.CONNECTED]
 
 
+def test_end_beyond_a_line_straight_into_the_depth_is_an_overshoot() -> None:
+    # Seen from above a post in a rail, which goes on for 5 mm beyond it.
+    post, rail = "LINESTRING Z (0 0 0, 0 0 1)", "LINESTRING Z (-1 0 0, 0.005 0 0)"
+    table = Polylines.of(np.array([shapely.from_wkt(post), shapely.from_wkt(rail)]))
+    ends = classify_ends(table, coincide=1e-4, reach=1e-2)
+    beyond = np.flatnonzero((ends.line == 1) & ~ends.forward)
+    assert ends.kind[beyond].tolist() == [EndKind.OVERSHOOT]
+    assert ends.size[beyond] == pytest.approx([0.005])
+    assert ends.other[beyond].tolist() == [0]
+
+
 def test_crowd_of_identical_lines_is_connected() -> None:
     ends = classify_ends(
         Polylines.of(np.full(100_000, shapely.LineString([(0, 0), (1, 1)]))), coincide=1e-4, reach=1e-2

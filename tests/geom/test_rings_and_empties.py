@@ -8,6 +8,7 @@ import shapely
 from foparq.geom.clusters import clusters
 from foparq.geom.duplicates import duplicate_groups
 from foparq.geom.ends import classify_ends
+from foparq.geom.extent import boxes_of, main_box
 from foparq.geom.polylines import Polylines
 from foparq.geom.rounding import EARTH, ROUNDING, slack_of
 
@@ -35,6 +36,15 @@ def test_a_line_without_vertices_is_no_copy_of_a_neighbour(lines: tuple[str, ...
     assert same == known
     for i, line in enumerate(lines):
         assert line == NOTHING or all(found[i] != found[j] for j, other in enumerate(lines) if other == NOTHING)
+
+
+def test_no_boxes_have_an_extent_of_nothing_and_a_box_that_of_itself() -> None:
+    def of(*shapes: str) -> list[list[float]]:
+        drawn = np.array([shapely.from_wkt(shape) for shape in shapes], dtype=object)
+        return [corner.tolist() for corner in main_box(boxes_of(drawn))]
+
+    assert of() == of(NOTHING) == of(NOTHING, "LINESTRING (0 0, 1 inf)") == [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
+    assert of("LINESTRING Z (5 0 7, 9 1 3)", NOTHING) == [[5.0, 0.0, 3.0], [9.0, 1.0, 7.0]]
 
 
 def test_a_line_without_vertices_is_closed_and_has_no_ends() -> None:

@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from foparq.geom.polylines import Segments
-from foparq.geom.segments import at_share, contacts, nearest_share, shared
+from foparq.geom.segments import at_share, cannot_meet, contacts, nearest_share, shared
 
 WITHIN = 5e-4
 Way = tuple[tuple[float, float, float], tuple[float, float, float]]
@@ -58,6 +58,35 @@ def test_a_slope_of_one_in_four_ends_running_along(rise: float, runs: bool) -> N
     turned = ((0.0, 0.0, 0.0), (short * np.sqrt(1 - rise**2), short * rise, 0.0))
     for a, b in every_way(((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0)), turned):
         assert bool(shared(a, b, within=WITHIN).length[0] > 0) is runs
+
+
+@pytest.mark.parametrize("turn", [0.0, 30.0, 90.0, 135.0])
+@pytest.mark.parametrize("aside", [0.4 * WITHIN, -0.4 * WITHIN])
+def test_of_equals_the_stretch_lies_on_the_first_by_place(turn: float, aside: float) -> None:
+    # The first is that with the lower x of the middle, of equal x the lower y.
+    along = np.round([np.cos(np.radians(turn)), np.sin(np.radians(turn))], 12)
+    across = aside * np.array([-along[1], along[0]])
+    one, two = np.array([-along, along]), np.array([-along, along]) + across
+    first = one if tuple(across) > (0, 0) else two
+    ways = [tuple((*place, 0.0) for place in ends.tolist()) for ends in (one, two)]
+    for a, b in every_way(*ways):  # type: ignore[arg-type]
+        found = shared(a, b, within=WITHIN)
+        assert found.length == pytest.approx([2.0])
+        places = sorted([found.start[0].tolist(), found.end[0].tolist()])
+        assert np.array(places) == pytest.approx(np.array(sorted(first.tolist())), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "post", [((1.0, 0.0, 0.0), (1.0, 0.0, 2.0)), ((1.0, 0.0, 0.0), (1.0, 0.0, 0.0))], ids=["into the depth", "a point"]
+)
+@pytest.mark.parametrize("through", [((0.0, 0.0, 0.0), (3.0, 0.0, 0.0)), ((1.0, -1.0, 0.0), (1.0, 1.0, 0.0))])
+def test_what_meets_is_never_rejected_though_it_has_no_length_in_the_plane(post: Way, through: Way) -> None:
+    for a, b in every_way(post, through):
+        assert contacts(a, b, within=WITHIN).meets.any()
+        assert not cannot_meet(a, b, within=WITHIN).any()
+        beside = Segments(b.start + 2 * WITHIN, b.end + 2 * WITHIN, b.z0, b.z1)
+        assert not contacts(a, beside, within=WITHIN).meets.any()
+        assert cannot_meet(a, beside, within=WITHIN).all()
 
 
 def test_a_segment_without_length_shares_nothing_and_its_place_is_its_start() -> None:
