@@ -38,6 +38,17 @@ def test_windows_drawn_apart_are_counted_and_have_one_reading() -> None:
     assert verdicts(thing) == (PASS, PASS)
 
 
+@pytest.mark.parametrize("shape", ["LINESTRING (0 0, 2 0)", "LINESTRING (1 1, 2.2 2.6)", "LINESTRING (5 0, 5 1, 5 2)"])
+def test_a_feature_drawn_as_one_straight_line_has_an_outline_as_wide_as_the_gap(shape: str) -> None:
+    line = shapely.from_wkt(shape)
+    found = counted(drawing([shape, frame(20.0, 0.0)])).found
+    narrow, window = found.outline[np.argsort([one.bounds[0] for one in found.outline])]
+    assert (narrow.geom_type, narrow.is_valid, shapely.contains(narrow, line)) == ("Polygon", True, True)
+    assert GAP * line.length < narrow.area < GAP * line.length + np.pi * GAP**2 / 4
+    assert shapely.hausdorff_distance(narrow, line) <= GAP / 2 * (1 + 1e-9)
+    assert window.area == pytest.approx(1.5)
+
+
 def test_half_of_the_windows_missing_fails_and_five_more_fail() -> None:
     assert verdicts(drawing([frame(*place) for place in PLACES[:10]])) == (PASS, FAIL)
     more = [frame(x, 100.0) for x in (0.0, 3.0, 6.0, 9.0, 12.0)]

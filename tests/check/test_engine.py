@@ -604,3 +604,14 @@ def test_a_ring_that_closes_in_plan_only_is_open_in_an_elevation(name: str, hole
     assert not checked.log
     judged = outcome(checked, "area-overlap")
     assert [one.item for one in judged.aside] == ([] if name == "xy" else [thing.items.item[3]])
+
+
+def test_a_depth_beyond_numbers_does_not_hide_how_wide_a_drawing_is() -> None:
+    # In metres the depth of the plan is larger than any number; in the plane it is 40 by 40, and the posts 1 m high.
+    km = DrawingUnit(metres=1000.0, name="km", origin=UnitOrigin.STATED)
+    plan = [f"LINESTRING Z (0 {n}e-3 1e306, 40e-3 {n}e-3 1e306)" for n in range(41)]
+    posts = [f"LINESTRING Z ({n}e-4 20e-3 0, {n}e-4 20e-3 1e-3)" for n in range(200, 202)]
+    checked = check(drawing([*plan, *posts], unit=km), "undershoot")
+    assert outcome(checked, "undershoot").because is Because.RAN
+    alone = check(drawing(posts, unit=km), "undershoot")
+    assert outcome(alone, "undershoot").because is Because.PLANE_DOUBTFUL

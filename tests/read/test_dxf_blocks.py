@@ -214,6 +214,18 @@ def test_hidden_inserts(tmp_path: Path, hide: str, visible: dict[str, bool]) -> 
     assert dict(zip(items.layer, items.visible.tolist(), strict=True)) == visible
 
 
+@pytest.mark.parametrize("flags", range(16))
+def test_of_attribute_definitions_only_constant_ones_are_drawn(tmp_path: Path, flags: int) -> None:
+    # Flags of the format: 1 invisible, 2 constant, 4 to verify, 8 preset. A constant one has no ATTRIB in the insert.
+    document = new()
+    leaf = document.blocks.new("LEAF")
+    leaf.add_line((0, 0), (1, 0))
+    leaf.add_attdef("NAME", (0, 0), dxfattribs={"flags": flags})
+    document.modelspace().add_blockref("LEAF", (0, 0))
+    drawing = read_back(document, tmp_path)
+    assert sorted(drawing.items.kind.tolist()) == (["ATTDEF", "LINE"] if flags & 2 else ["LINE"])
+
+
 def test_hatches_of_older_programs_are_one_item_each(tmp_path: Path) -> None:
     document = new()
     strokes = document.blocks.new("*X7")

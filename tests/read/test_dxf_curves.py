@@ -47,6 +47,19 @@ def test_bulge_lies_on_its_circle(bulge: float, chord: float, sagitta: float) ->
     assert radius * (1 - math.cos(sweep / (len(points) + 1) / 2)) <= sagitta * (1 + 1e-6)
 
 
+def test_a_closed_polyline_that_ends_where_it_began_has_no_vertex_twice(tmp_path: Path) -> None:
+    # A circle of radius 1 from two half turns, closed by the flag and by its last vertex too.
+    document = new()
+    document.modelspace().add_lwpolyline(
+        [(-1, 0, 1), (1, 0, 1), (-1, 0, 0)], format="xyb", close=True, dxfattribs={"layer": "A"}
+    )
+    (circle,) = read_back(document, tmp_path).items.geometry
+    points = shapely.get_coordinates(circle)
+    assert circle.is_closed
+    assert np.hypot(*np.diff(points, axis=0).T).min() > 0
+    assert shapely.Polygon(points).area == pytest.approx(math.pi, rel=1e-3)
+
+
 @pytest.mark.parametrize("bulge", [0.0, math.nan, math.inf, 5e-324, 1e-300])
 def test_bulges_that_bend_nothing(bulge: float) -> None:
     assert flatten_bulge((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), bulge, Sagitta(1e-4)).tolist() == []

@@ -134,6 +134,14 @@ def test_lengths_are_held_against_the_diagonal(tmp_path: Path, extent: Extent, s
     assert fault(read_distances, path, MILLIMETRES, [extent]).message == "table.thousands"
 
 
+def test_a_length_may_be_the_diagonal_itself(tmp_path: Path) -> None:
+    triangle = Extent((1.0, 2.0, 2.0), (4.0, 2.0, 6.0))  # 3 m by 4 m
+    read = read_distances(written(tmp_path, distances(["5.000"])), METRES, [triangle])
+    assert read.measured.tolist() == [5.0]
+    path = written(tmp_path, distances(["5.001"]))
+    assert fault(read_distances, path, METRES, [triangle]).message == "table.thousands"
+
+
 def test_lengths_beyond_every_drawing_prove_nothing(tmp_path: Path) -> None:
     path = written(tmp_path, distances(["242.035", "243.414", "248.741"]))
     assert fault(read_distances, path, METRES, [HOUSE]).message == "table.thousands"

@@ -101,6 +101,12 @@ def test_the_worst_is_that_of_the_greatest_share_of_its_limit(measured: AuditRec
     worst = measured.quality.worst
     assert worst is not None
     assert (worst[0].id, worst[1].id) == ("Q1-Z", "P2")
+    # Where X may differ by 1 mm only, 2 mm there are twice what is allowed, and 71.3 mm in Z 0.7 times.
+    limits = {"Q1-X": 0.001, "Q1-Y": 0.1, "Q1-Z": 0.1}
+    elements = tuple(replace(one, limit=limits.get(one.id, one.limit)) for one in measured.quality.elements)
+    worst = replace(measured.quality, elements=elements).worst
+    assert worst is not None
+    assert (worst[0].id, worst[1].id) == ("Q1-X", "P1")
 
 
 def test_only_the_outlier_bears_its_id_on_the_drawing(measured: AuditRecord) -> None:
