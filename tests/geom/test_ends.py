@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Ends of lines against a slow independent reading of the definitions, and against drawings that hurt."""
 
+import itertools
+from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
@@ -88,6 +90,43 @@ def test_end_beyond_a_line_straight_into_the_depth_is_an_overshoot() -> None:
     assert ends.kind[beyond].tolist() == [EndKind.OVERSHOOT]
     assert ends.size[beyond] == pytest.approx([0.005])
     assert ends.other[beyond].tolist() == [0]
+
+
+Way = list[tuple[float, float]]
+
+
+def beside(side: float, length: float) -> Way:
+    """A line that runs past the origin, left or right of it."""
+    return [(side * 2**-8, -length / 2), (side * 2**-8, length / 2)]
+
+
+def across(side: float, length: float) -> Way:
+    """A line through the origin that rises to the right, most of it left or right of it."""
+    return [(-length * (0.5 - side / 4), -length * (0.5 - side / 4)), (length * (0.5 + side / 4),) * 2]
+
+
+@pytest.mark.parametrize(
+    ("kind", "made", "end"), [(EndKind.UNDERSHOOT, beside, 0.0), (EndKind.OVERSHOOT, across, 2**-8)]
+)
+@pytest.mark.parametrize(("left", "right"), [(0.5, 0.25), (0.25, 0.5), (0.5, 0.5)])
+def test_of_lines_as_near_the_longest_is_named_of_equals_the_first_by_place(
+    left: float, right: float, kind: EndKind, made: Callable[[float, float], Way], end: float
+) -> None:
+    asked, named = [(0.0, -1.0), (0.0, end)], made(-1, left) if left >= right else made(1, right)
+    for lines in itertools.permutations([asked, made(-1, left), made(1, right)]):
+        ends = classify_ends(polylines([np.array(way) for way in lines]), coincide=1e-4, reach=1e-2)
+        tip = np.flatnonzero((ends.line == lines.index(asked)) & ~ends.forward)
+        assert ends.kind[tip].tolist() == [kind]
+        assert ends.size[tip] == pytest.approx([2**-8])
+        assert lines[ends.other[tip[0]]] == named
+
+
+@pytest.mark.parametrize(("gap", "kind"), [(0.25, EndKind.UNDERSHOOT), (0.25 + 1e-6, EndKind.FREE)])
+def test_a_line_exactly_at_reach_is_within(gap: float, kind: EndKind) -> None:
+    for turned in (0, 1):
+        lines = [np.array([(-3.0, 0.0), (-gap, 0.0)]), np.array([(0.0, -2.0), (0.0, 2.0)])]
+        ends = classify_ends(polylines([np.roll(way, turned, axis=1) for way in lines]), coincide=1e-4, reach=0.25)
+        assert ends.kind[:2].tolist() == [EndKind.FREE, kind]
 
 
 def test_crowd_of_identical_lines_is_connected() -> None:
