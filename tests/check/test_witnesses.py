@@ -72,3 +72,11 @@ def test_no_plane_is_better_where_none_shows_nine_tenths() -> None:
         better_plane(Columns(replace(made, plane=plane_of(name, made.items.geometry)), hidden=False)) == ""
         for name in ("xy", "xz", "yz")
     )
+
+
+@pytest.mark.parametrize("size", [0.01, 1.0, 100.0])
+def test_one_line_across_the_world_does_not_speak_for_a_facade_of_any_size(size: float) -> None:
+    # It counts as ten of the two hundred others, and lies in the plane of x and y.
+    across = shapely.LineString([(0, 3, 0), (0, 5000, 0)])
+    lines = [shapely.transform(line, lambda way: way * size, include_z=True) for line in (*facade(100, 100), across)]
+    assert better_plane(Columns(showing(lines), hidden=False)) == "xz"

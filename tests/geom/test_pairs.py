@@ -14,7 +14,7 @@ from foparq.geom import boxtree, runtree
 from foparq.geom.boxtree import BoxTree, z_order
 from foparq.geom.crossings import self_meetings
 from foparq.geom.overlaps import line_overlaps
-from foparq.geom.pairs import own_meetings
+from foparq.geom.pairs import own_meetings, runs_of_two
 from foparq.geom.polylines import Polylines
 
 FINE = 1e-9
@@ -145,6 +145,21 @@ def test_collinear_lines_overlap_pair_by_pair() -> None:
     pairs = zip(found.line.tolist(), found.other.tolist(), strict=True)
     assert sorted(map(min, pairs)) == list(range(49))
     assert found.length == pytest.approx(np.full(49, np.hypot(0.5, 1)))
+
+
+@pytest.mark.parametrize(
+    ("other", "runs"),
+    [
+        ([(0.5, 0), (3, 0)], True), ([(1, 0), (3, 0)], False), ([(-3, 0), (0, 0)], False), ([(1.5, 0), (3, 0)], False),
+        ([(0, 9e-4), (1, 9e-4)], True), ([(0, 11e-4), (1, 11e-4)], False), ([(0.5, -1), (0.5, 1)], False),
+        ([(0.5, 0), (0.5, 1)], False), ([(1, 9e-4), (3, 9e-4)], False),
+    ],
+)  # fmt: skip
+def test_segments_that_only_touch_or_cross_do_not_run_along(other: list[tuple[float, float]], runs: bool) -> None:  # noqa: FBT001
+    for two in (other, other[::-1]):
+        for lines in ([[(0, 0), (1, 0)], two], [two, [(0, 0), (1, 0)]]):
+            found = runs_of_two(table([shapely.LineString(way) for way in lines]), coincide=1e-3)
+            assert found.T.tolist() == ([[0, 1]] if runs else [])
 
 
 def test_figure_of_eight_crosses_once_whichever_way_it_is_cut_up() -> None:
