@@ -3,6 +3,7 @@
 
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -249,3 +250,15 @@ def test_a_process_with_threads_starts_a_fresh_interpreter(monkeypatch: pytest.M
         thread.join()
     assert died.value.fields["value"] == "SIGABRT"
     assert slow.value.message == "read.too-slow"
+
+
+@LINUX
+def test_where_less_memory_is_allowed_than_a_reader_may_take_files_are_read_all_the_same() -> None:
+    # As after "ulimit -v": nobody may take more than that, nor wish to.
+    text = (
+        "import resource; resource.setrlimit(resource.RLIMIT_AS, (1_600_000_000,) * 2); "
+        "from foparq.read.guard.parent import guarded; "
+        "print(guarded(abs, -3, file='a.dxf', seconds=30.0, memory=2_000_000_000))"
+    )
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=False, timeout=60)
+    assert (done.stdout.strip(), done.returncode) == ("3", 0), done.stderr
