@@ -11,6 +11,7 @@ import pytest
 from tests.read.gis_files import listing, read, write
 
 from foparq.errors import UnreadableError, UnsafeError, WriteError
+from foparq.read.gis import gpkg_safety
 from foparq.read.guard.stage import mark, private_folder, staged, sweep
 from foparq.report.words import LANGUAGES, Words
 
@@ -134,6 +135,22 @@ def test_texts_that_name_layers_are_bounded(tmp_path: Path) -> None:
     with pytest.raises(UnsafeError) as caught:
         read(path)
     assert caught.value.message == "read.cell-too-large"
+
+
+@pytest.mark.parametrize(("name", "refused"), [("xxxxxxxxxx", False), ("xxxxxxxxxxx", True)])
+def test_as_much_text_as_may_be_names_layers(
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    name: str,
+    refused: bool,  # noqa: FBT001
+) -> None:
+    monkeypatch.setattr(gpkg_safety, "_MOST_TEXT", 20)
+    path = write(tmp_path / "a.gpkg", [*LINE, *LINE], camada=["yyyyyyyyyy", name])
+    if refused:
+        with pytest.raises(UnsafeError, match=r"read\.cell-too-large"):
+            read(path)
+    else:
+        assert set(read(path).items.layer.tolist()) == {"yyyyyyyyyy", name}
 
 
 @pytest.mark.parametrize(("count", "refused"), [(2_000, False), (2_001, True)])
