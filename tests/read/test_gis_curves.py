@@ -100,6 +100,16 @@ def test_a_window_with_an_arched_top_and_a_round_hole(tmp_path: Path) -> None:
     assert shapely.is_valid(items.geometry).all()
 
 
+def test_straight_collections_beside_an_arc_keep_their_parts(tmp_path: Path) -> None:
+    arc = simple(8, [(0, 0), (1, 1), (2, 0)])
+    lines = shape(5, simple(2, [(5, 5), (6, 5)]), simple(2, [(5, 7), (6, 7)]))
+    parts = read(package(tmp_path, shape(7, arc, lines, shape(7, lines)))).items.geometry
+    drawn = list(shapely.get_parts(shapely.get_parts(shapely.get_parts(parts))))
+    straight = sorted(line.wkt for line in drawn if line.length == 1)
+    assert straight == sorted(["LINESTRING (5 5, 6 5)", "LINESTRING (5 7, 6 7)"] * 2)
+    assert sum(line.length for line in drawn) == pytest.approx(math.pi + 4, rel=1e-3)
+
+
 def test_heights_run_along_the_arc(tmp_path: Path) -> None:
     measured = [(1.0, 0.0, 10.0, 7.0), (0.0, 1.0, 11.0, 8.0), (-1.0, 0.0, 12.0, 9.0)]
     (line,) = read(package(tmp_path, simple(3008, measured), z=2)).items.geometry
