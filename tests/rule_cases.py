@@ -13,6 +13,7 @@ from foparq.check.registry import all_rules
 from foparq.check.rule import Rule
 from foparq.findings.hits import Hits
 from foparq.model.inputs import Areas, Features, Lines, Named, areas_of, features_of, lines_of
+from foparq.profile.schema import LineworkSpec
 from foparq.units import parse_quantity
 
 FOLDER = Path(__file__).with_name("cases")
@@ -53,13 +54,20 @@ def geometry_cases() -> list[Any]:
     return found
 
 
+def common(rule: Rule) -> dict[str, float]:
+    """Tolerances of a rule that profiles state for all rules, as the shipped ones have them, at 1:50."""
+    stated = LineworkSpec().tolerances
+    return {name: stated[name].si(50) for name, _ in rule.tolerances if name in stated}
+
+
 def _case(rule: Rule, case: dict[str, Any]) -> Case:
     units = dict(rule.tolerances)
     return Case(
         rule=rule,
         name=case["name"],
         given=_columns(rule.subject, case["given"]),
-        tolerances={name: parse_quantity(text, units[name]).si() for name, text in case.get("with", {}).items()},
+        tolerances=common(rule)
+        | {name: parse_quantity(text, units[name]).si() for name, text in case.get("with", {}).items()},
         find=case["find"],
         tie=case.get("tie", False),
     )

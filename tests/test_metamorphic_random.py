@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import shapely
 from tests.changes import CHANGES
+from tests.rule_cases import common
 
 from foparq.check.registry import all_rules
 from foparq.check.rule import Rule
@@ -93,7 +94,7 @@ def given(rule: Rule, seed: int) -> Any:
 
 
 def run(rule: Rule, columns: Any) -> Hits:
-    tolerances = {name: TOLERANCES.get(name, OFF_GRID[unit]) for name, unit in rule.tolerances}
+    tolerances = {name: TOLERANCES.get(name, OFF_GRID.get(unit, 0.0)) for name, unit in rule.tolerances} | common(rule)
     with np.errstate(invalid="ignore"):
         return rule.check(columns, **tolerances)
 

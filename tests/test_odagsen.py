@@ -16,7 +16,8 @@ import numpy as np
 import pytest
 import shapely
 from numpy.typing import NDArray
-from tests.geom.oracle import Drawing, classify
+from tests.geom.aims import ANYWHERE
+from tests.geom.oracle import Drawing, chained, classify_one
 
 from foparq.check.registry import all_rules
 from foparq.findings.hits import Hits
@@ -93,7 +94,8 @@ def chains(folder: Path, sheet: str) -> Chains:
 
 def run(name: str, lines: Lines) -> Hits:
     record = next(record for record in all_rules().values() if record.name == name)
-    return record.check(lines, **{key: {"coincide": COINCIDE, "reach": REACH}[key] for key, _ in record.tolerances})
+    stated = {"coincide": COINCIDE, "reach": REACH, **ANYWHERE._asdict()}
+    return record.check(lines, **{key: stated[key] for key, _ in record.tolerances})
 
 
 def readme_ends(sheet: Chains) -> dict[tuple[int, bool], float]:
@@ -154,12 +156,13 @@ def end_differences(sheet: str, drawn: Chains) -> list[Difference]:
     """Ends of which foparq says something else than the README, each with its reason; fails if there is none."""
     lines = drawn.lines
     kept = np.setdiff1d(np.arange(len(lines)), run("duplicate", lines).row)
-    ends = classify_ends(lines.take(kept).polylines, coincide=COINCIDE, reach=REACH)
+    ends = classify_ends(lines.take(kept).polylines, ANYWHERE, coincide=COINCIDE, reach=REACH)
     ours = {
         (int(kept[line]), not forward): (EndKind(kind).name.lower(), float(size))
         for line, forward, kind, size in zip(ends.line, ends.forward, ends.kind, ends.size, strict=True)
     }
-    single = Drawing([shapely.get_coordinates(shape) for shape in drawn.geometry[kept]])
+    ways = [shapely.get_coordinates(shape) for shape in drawn.geometry[kept]]
+    followed = chained(ways, COINCIDE)
     found = []
     for (line, last), distance in readme_ends(drawn).items():
         said = readme_says(distance)
@@ -171,9 +174,8 @@ def end_differences(sheet: str, drawn: Chains) -> list[Difference]:
             reason = "copy"
             assert any(shapely.hausdorff_distance(drawn.geometry[line], drawn.geometry[k]) <= COINCIDE for k in kept)
         else:
-            reason = _reason(
-                single, int(np.searchsorted(kept, line)), last=last, distance=distance, kind=kind, size=size
-            )
+            end = int(np.searchsorted(kept, line)), last
+            reason = _reason(ways, followed, end, distance=distance, kind=kind, size=size)
         found.append(
             Difference(
                 sheet, drawn.handle[line], "last" if last else "first", _said(said, distance), _said(kind, size), reason
@@ -182,10 +184,15 @@ def end_differences(sheet: str, drawn: Chains) -> list[Difference]:
     return found
 
 
-def _reason(single: Drawing, line: int, *, last: bool, distance: float, kind: str, size: float) -> str:
+def _reason(
+    ways: list[NDArray[np.float64]], followed: tuple[Drawing, dict[tuple[int, bool], int]], end: tuple[int, bool], *,
+    distance: float, kind: str, size: float,
+) -> str:  # fmt: skip
     """Why an end differs, told from the definitions alone."""
-    true = classify(single, line, last=last, coincide=COINCIDE, reach=REACH)
-    assert true is not None
+    true = classify_one(ways, followed, end, coincide=COINCIDE, reach=REACH)
+    single, line = followed[0], followed[1][end]
+    place = ways[end[0]][-1 if end[1] else 0]
+    last = bool(np.any(single.lines[line][0][:2] != place))
     assert (true.kind, pytest.approx(true.size, abs=1e-7)) == (kind, size), "foparq departs from its own definition"
     place = shapely.Point(single.walked(line, last=last)[0, :2])
     others = single.others(line, last=last, reach=REACH, coincide=COINCIDE)

@@ -22,16 +22,19 @@ def check_texts(rule: Rule, tables: dict[str, Any]) -> None:
     assert set(tables) == set(LANGUAGES), f"{file} needs one table a language: {LANGUAGES}"
     for language, texts in tables.items():
         due = {"title", "finding", "mend"} | ({"translates", "manual"} if language != "en" else set())
-        assert set(texts) == due, f"[{language}] of {file} must hold {sorted(due)}, no more and no less"
+        assert set(texts) - {"finding_other"} == due, (
+            f"[{language}] of {file} must hold {sorted(due)}, no more and no less"
+        )
         for part, text in texts.items():
             assert isinstance(text, str), f"{part} under [{language}] of {file} is no text"
             assert text.strip(), f"{part} under [{language}] of {file} is empty"
-        unknown = placeholders(texts["finding"]) - FIELDS
+        unknown = placeholders(texts["finding"] + texts.get("finding_other", "")) - FIELDS
         assert not unknown, f"finding under [{language}] of {file} names {unknown}: only {sorted(FIELDS)} are filled in"
         for part in ("title", "mend"):
             assert not placeholders(texts[part]), f"{part} under [{language}] of {file} names fields; only finding may"
-    english, portuguese = (placeholders(tables[language]["finding"]) for language in ("en", "pt-BR"))
-    assert english == portuguese, f"finding of {file} names {english} in English, {portuguese} in Portuguese"
+    for part in ("finding", "finding_other"):
+        english, portuguese = (placeholders(tables[language].get(part, "")) for language in ("en", "pt-BR"))
+        assert english == portuguese, f"{part} of {file} names {english} in English, {portuguese} in Portuguese"
 
     translated = tables["pt-BR"]
     for name, _ in rule.tolerances:

@@ -21,7 +21,7 @@ class Unit:
     Parameters
     ----------
     symbol : str
-        The SI symbol in which the rule receives the number: ``"m"``, ``"m2"``, ``"1"`` or ``"items"``.
+        The SI symbol in which the rule receives the number: ``"m"``, ``"m2"``, ``"1"``, ``"items"`` or ``"rad"``.
     """
 
     symbol: str
@@ -31,6 +31,7 @@ Metres = Annotated[float, Unit("m")]
 SquareMetres = Annotated[float, Unit("m2")]
 Ratio = Annotated[float, Unit("1")]
 Count = Annotated[float, Unit("items")]
+Radians = Annotated[float, Unit("rad")]
 
 #: metres in one unit of length, exact where the definition is
 LENGTHS: dict[str, float] = {
@@ -57,10 +58,12 @@ _SPELLED = {
     "'": "ft",
     "inch": "in",
     "metre": "m",
+    "°": "deg",
 }
 _RATIOS = {"%": 0.01, "1": 1.0}
 _COUNTS = {"items": 1.0}
-_SYMBOLS = {"m": LENGTHS, "m2": _AREAS, "1": _RATIOS, "items": _COUNTS}
+_ANGLES = {"deg": math.pi / 180, "rad": 1.0}
+_SYMBOLS = {"m": LENGTHS, "m2": _AREAS, "1": _RATIOS, "items": _COUNTS, "rad": _ANGLES}
 _QUANTITY = re.compile(
     r"^\s*(?P<number>[+-]?[0-9]+(?:[.,][0-9]+)?(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>[^\s@\d]+[²2]?)\s*(?P<scale>@\s*scale)?\s*$"
 )
@@ -99,7 +102,7 @@ class Quantity:
 
     @property
     def symbol(self) -> str:
-        """SI symbol of what is measured: ``"m"``, ``"m2"``, ``"1"`` or ``"items"``."""
+        """SI symbol of what is measured: ``"m"``, ``"m2"``, ``"1"``, ``"items"`` or ``"rad"``."""
         return next(symbol for symbol, known in _SYMBOLS.items() if self.unit in known)
 
     def si(self, scale: float | None = None) -> float:
@@ -113,7 +116,7 @@ class Quantity:
         Returns
         -------
         float
-            Metres, square metres, ratio or count.
+            Metres, square metres, ratio, count or radians.
 
         Raises
         ------
@@ -139,7 +142,7 @@ def parse_quantity(text: object, symbol: str) -> Quantity:
     text : object
         A string such as ``"0.2 mm @ scale"``, ``"5 cm"``, ``"10 %"``. A decimal comma is understood.
     symbol : str
-        What must be measured: ``"m"``, ``"m2"``, ``"1"`` or ``"items"``.
+        What must be measured: ``"m"``, ``"m2"``, ``"1"``, ``"items"`` or ``"rad"``.
 
     Raises
     ------
@@ -151,7 +154,7 @@ def parse_quantity(text: object, symbol: str) -> Quantity:
     >>> parse_quantity("0.2 mm @ scale", "m").si(50)
     0.01
     """
-    example = {"m": "0.2 mm @ scale", "m2": "1 m2", "1": "10 %", "items": "5 items"}[symbol]
+    example = {"m": "0.2 mm @ scale", "m2": "1 m2", "1": "10 %", "items": "5 items", "rad": "15 deg"}[symbol]
     if not isinstance(text, str):
         raise QuantityError("quantity.bare-number", value=text, example=example)
     found = _QUANTITY.match(text)

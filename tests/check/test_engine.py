@@ -84,7 +84,9 @@ def test_a_fault_has_place_size_item_layer_limit_and_unit() -> None:
 def test_every_rate_has_its_denominator() -> None:
     found = outcome(check(drawing(T_JUNCTION_4MM_SHORT), "undershoot"), "undershoot")
     assert (found.status, found.checked, found.found, found.faulty.tolist()) == (Status.FAULTY, 3, 1, [1])
-    assert {name: value for name, value, _ in found.parameters} == {"coincide": 0.0005, "reach": 0.01}
+    parameters = {name: value for name, value, _ in found.parameters}
+    assert (parameters["coincide"], parameters["reach"]) == (0.0005, 0.01)
+    assert (parameters["ahead"], parameters["remainder"]) == (pytest.approx(np.pi / 3), 3.0)  # of [linework]
 
 
 def test_units_of_the_file_come_back_in_the_place() -> None:

@@ -11,6 +11,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from tests.geom.aims import AIM
+from tests.geom.oracle import Aim as Told
 from tests.geom.oracle import classify_all
 
 from foparq.geom.ends import NOBODY, EndKind, Ends, classify_ends
@@ -28,7 +30,7 @@ def polylines(lines: list[NDArray[np.float64]]) -> Polylines:
 
 
 def assert_same(ends: Ends, lines: list[NDArray[np.float64]]) -> None:
-    expected = classify_all(lines, coincide=COINCIDE, reach=REACH)
+    expected = classify_all(lines, coincide=COINCIDE, reach=REACH, aim=Told(*AIM))
     assert len(ends.line) == len(expected)
     for n, want in enumerate(expected):
         assert (ends.line[n], not ends.forward[n]) == (want.line, want.last)
@@ -46,13 +48,13 @@ def walks(dimensions: int) -> st.SearchStrategy[list[NDArray[np.float64]]]:
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(walks(2))
 def test_ends_in_the_plane_are_what_the_definitions_say(lines: list[NDArray[np.float64]]) -> None:
-    assert_same(classify_ends(polylines(lines), coincide=COINCIDE, reach=REACH), lines)
+    assert_same(classify_ends(polylines(lines), AIM, coincide=COINCIDE, reach=REACH), lines)
 
 
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(walks(3))
 def test_ends_with_depth_are_what_the_definitions_say(lines: list[NDArray[np.float64]]) -> None:
-    assert_same(classify_ends(polylines(lines), coincide=COINCIDE, reach=REACH), lines)
+    assert_same(classify_ends(polylines(lines), AIM, coincide=COINCIDE, reach=REACH), lines)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -60,7 +62,7 @@ def test_larger_drawing_is_what_the_definitions_say(seed: int) -> None:
     rng = np.random.default_rng(seed)
     start = rng.uniform(0, 0.3, (60, 1, 2))
     lines = list(np.concatenate([start, start + np.cumsum(rng.normal(0, 0.02, (60, 9, 2)), axis=1)], axis=1))
-    assert_same(classify_ends(polylines(lines), coincide=COINCIDE, reach=REACH), lines)
+    assert_same(classify_ends(polylines(lines), AIM, coincide=COINCIDE, reach=REACH), lines)
 
 
 @pytest.mark.parametrize(
@@ -68,7 +70,7 @@ def test_larger_drawing_is_what_the_definitions_say(seed: int) -> None:
 )
 def test_without_ends_there_is_nothing_to_say(lines: list[str]) -> None:
     ends = classify_ends(
-        Polylines.of(np.array([shapely.from_wkt(x) for x in lines], dtype=object)), coincide=1e-4, reach=1e-2
+        Polylines.of(np.array([shapely.from_wkt(x) for x in lines], dtype=object)), AIM, coincide=1e-4, reach=1e-2
     )
     assert not len(ends.line)
 
@@ -77,7 +79,7 @@ def test_line_straight_into_the_depth_has_two_ends() -> None:
     table = Polylines.of(
         np.array([shapely.from_wkt("LINESTRING Z (0 0 0, 0 0 1)"), shapely.from_wkt("LINESTRING Z (-1 0 1, 1 0 1)")])
     )
-    kinds = classify_ends(table, coincide=1e-4, reach=1e-2).kind[:2]
+    kinds = classify_ends(table, AIM, coincide=1e-4, reach=1e-2).kind[:2]
     assert kinds.tolist() == [EndKind.FREE, EndKind.CONNECTED]
 
 
@@ -131,7 +133,7 @@ def test_a_line_exactly_at_reach_is_within(gap: float, kind: EndKind) -> None:
 
 def test_crowd_of_identical_lines_is_connected() -> None:
     ends = classify_ends(
-        Polylines.of(np.full(100_000, shapely.LineString([(0, 0), (1, 1)]))), coincide=1e-4, reach=1e-2
+        Polylines.of(np.full(100_000, shapely.LineString([(0, 0), (1, 1)]))), AIM, coincide=1e-4, reach=1e-2
     )
     assert np.all(ends.kind == EndKind.CONNECTED)
 
@@ -139,17 +141,17 @@ def test_crowd_of_identical_lines_is_connected() -> None:
 def test_star_of_lines_is_connected_in_the_middle_and_free_outside() -> None:
     angle = np.arange(20_000) * (2 * np.pi / 20_000)
     rays = np.stack([np.zeros((20_000, 2)), 1000 * np.column_stack([np.cos(angle), np.sin(angle)])], axis=1)
-    ends = classify_ends(Polylines.of(shapely.linestrings(rays)), coincide=1e-4, reach=1e-2)
+    ends = classify_ends(Polylines.of(shapely.linestrings(rays)), AIM, coincide=1e-4, reach=1e-2)
     assert np.all(ends.kind[ends.forward] == EndKind.CONNECTED)
     assert np.all(ends.kind[~ends.forward] == EndKind.FREE)
 
 
-def test_askew_hatch_of_parallel_lines_is_short_everywhere() -> None:
+def test_askew_hatch_of_parallel_lines_misses_nothing() -> None:
     y = np.arange(20_000) * 0.001
     hatch = np.stack([np.column_stack([0 * y, y]), np.column_stack([0 * y + 1, y])], axis=1)
     turn = np.array([[np.cos(0.5), np.sin(0.5)], [-np.sin(0.5), np.cos(0.5)]])
-    ends = classify_ends(Polylines.of(shapely.linestrings(hatch @ turn)), coincide=1e-4, reach=1e-2)
-    assert np.all(ends.kind == EndKind.UNDERSHOOT)
+    ends = classify_ends(Polylines.of(shapely.linestrings(hatch @ turn)), AIM, coincide=1e-4, reach=1e-2)
+    assert np.all(ends.kind == EndKind.BESIDE)
     assert ends.size == pytest.approx(np.full(40_000, 0.001))
 
 

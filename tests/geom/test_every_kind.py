@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 import shapely
 from numpy.typing import NDArray
+from tests.geom.aims import AIM
+from tests.rule_cases import common
 
 from foparq.check.registry import all_rules
 from foparq.check.rule import Rule
@@ -194,7 +196,7 @@ def of_rows(table: Any, rows: Any, count: int) -> list[list[Any]]:
 def line_kernels(shapes: Made, count: int) -> list[Any]:
     table = Polylines.of(shapes)
     origin = table.origin
-    ends = classify_ends(table, coincide=COINCIDE, reach=REACH)
+    ends = classify_ends(table, AIM, coincide=COINCIDE, reach=REACH)
     crossings = self_meetings(table, coincide=COINCIDE)
     overlaps = line_overlaps(table, np.zeros(len(shapes), dtype=bool), coincide=COINCIDE)
     repeated = repeated_vertices(table, coincide=COINCIDE)
@@ -267,7 +269,9 @@ BY_UNIT = {"m": 0.0203, "m2": 0.00123, "1": 0.1234, "items": 3.0}
 
 
 def found(rule: Rule, columns: Any, count: int) -> str:
-    hits = rule.check(columns, **{name: TOLERANCES.get(name, BY_UNIT[unit]) for name, unit in rule.tolerances})
+    shared = common(rule)
+    own = {name: TOLERANCES.get(name, BY_UNIT[unit]) for name, unit in rule.tolerances if name not in shared}
+    hits = rule.check(columns, **own, **shared)
     places = np.round(place_on(hits.where), 6)
     return repr(of_rows([hits.row, hits.other, places, np.round(hits.size, 6)], hits.row, count))
 

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 import shapely
+from tests.geom.aims import AIM
 
 from foparq.geom.clusters import clusters
 from foparq.geom.duplicates import duplicate_groups
@@ -51,7 +52,7 @@ def test_a_line_without_vertices_is_closed_and_has_no_ends() -> None:
     drawn = table(A, NOTHING, B)
     assert drawn.opening.tolist() == pytest.approx([np.sqrt(2), 0.0, 4.0])
     assert drawn.length.tolist() == pytest.approx([np.sqrt(2), 0.0, 4.0])
-    assert set(classify_ends(drawn, coincide=COINCIDE, reach=0.01).line.tolist()) == {0, 2}
+    assert set(classify_ends(drawn, AIM, coincide=COINCIDE, reach=0.01).line.tolist()) == {0, 2}
 
 
 def saw(height: float) -> np.ndarray:

@@ -6,6 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from tests.geom.aims import AIM
+from tests.geom.oracle import Aim as Told
 from tests.geom.oracle import classify_all
 
 from foparq.geom.ends import NOBODY, EndKind, classify_ends
@@ -23,7 +25,7 @@ def table(*lines: str) -> Polylines:
 
 def top_of_the_post(*lines: str) -> tuple[EndKind, float, int]:
     """What the upper end of the second line is."""
-    ends = classify_ends(table(*lines), coincide=COINCIDE, reach=REACH)
+    ends = classify_ends(table(*lines), AIM, coincide=COINCIDE, reach=REACH)
     row = int(np.flatnonzero((ends.line == 1) & ends.forward)[0])
     return EndKind(ends.kind[row]), float(ends.size[row]), int(ends.other[row])
 
@@ -65,13 +67,13 @@ def test_a_stroke_overhead_joins_nothing_below(low: list[str]) -> None:
 def test_a_line_that_comes_back_to_itself_through_strokes_is_no_loose_end() -> None:
     ring = "LINESTRING (0 0, 1 0, 1 1, 0 1, 0 0.001)"
     ends = classify_ends(
-        table(ring, "LINESTRING (0 0, 0 0.0005)", "LINESTRING (0 0.0005, 0 0.001)"), coincide=COINCIDE, reach=REACH
+        table(ring, "LINESTRING (0 0, 0 0.0005)", "LINESTRING (0 0.0005, 0 0.001)"), AIM, coincide=COINCIDE, reach=REACH
     )
     assert ends.kind.tolist() == [EndKind.CONNECTED] * 2
 
 
 def test_a_stroke_that_only_touches_the_end_it_lies_on_joins_nothing() -> None:
-    ends = classify_ends(table(POST, "LINESTRING (0 -0.005, 0 -0.0048)"), coincide=COINCIDE, reach=REACH)
+    ends = classify_ends(table(POST, "LINESTRING (0 -0.005, 0 -0.0048)"), AIM, coincide=COINCIDE, reach=REACH)
     assert ends.kind.tolist() == [EndKind.FREE] * 2
 
 
@@ -102,7 +104,7 @@ def test_ends_among_strokes_are_what_the_definitions_say(lines: list[Way]) -> No
     reach = 0.00305  # no distance on the grid
     coincide = 0.00051
     offsets = np.concatenate([[0], np.cumsum([len(line) for line in lines])])
-    ends = classify_ends(Polylines(np.concatenate(lines), offsets), coincide=coincide, reach=reach)
-    expected = classify_all(lines, coincide=coincide, reach=reach)
+    ends = classify_ends(Polylines(np.concatenate(lines), offsets), AIM, coincide=coincide, reach=reach)
+    expected = classify_all(lines, coincide=coincide, reach=reach, aim=Told(*AIM))
     assert [EndKind(kind).name.lower() for kind in ends.kind] == [want.kind for want in expected]
     assert ends.size.tolist() == pytest.approx([want.size for want in expected], abs=1e-7)

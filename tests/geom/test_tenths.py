@@ -9,6 +9,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from tests.geom.aims import AIM
+from tests.geom.oracle import Aim as Told
 from tests.geom.oracle import classify_all
 
 from foparq.geom.clusters import clusters
@@ -50,8 +52,8 @@ def walks(dimensions: int) -> st.SearchStrategy[list[Way]]:
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(st.one_of(walks(2), walks(3)), st.sampled_from([10, 13, 15]))
 def test_ends_are_what_the_definitions_say(lines: list[Way], reach: int) -> None:
-    ends = classify_ends(table(*lines), coincide=COINCIDE, reach=reach * TENTH)
-    expected = classify_all(lines, coincide=COINCIDE, reach=reach * TENTH)
+    ends = classify_ends(table(*lines), AIM, coincide=COINCIDE, reach=reach * TENTH)
+    expected = classify_all(lines, coincide=COINCIDE, reach=reach * TENTH, aim=Told(*AIM))
     assert len(ends.line) == len(expected)
     for n, want in enumerate(expected):
         assert (ends.line[n], not ends.forward[n]) == (want.line, want.last)
@@ -68,7 +70,10 @@ def kind_by(distance: float, beyond: EndKind) -> EndKind:
 @pytest.mark.parametrize("gap", [*TENTHS, 99, 100, 101])
 def test_an_end_that_stops_short(gap: int, by: float) -> None:
     ends = classify_ends(
-        table(tenths((-900, 0), (900, 0), by=by), tenths((3, gap), (3, 900), by=by)), coincide=COINCIDE, reach=REACH
+        table(tenths((-900, 0), (900, 0), by=by), tenths((3, gap), (3, 900), by=by)),
+        AIM,
+        coincide=COINCIDE,
+        reach=REACH,
     )
     assert ends.kind[2] == kind_by(gap, EndKind.UNDERSHOOT)
     known = {EndKind.CONNECTED: 0.0, EndKind.UNDERSHOOT: gap * TENTH, EndKind.FREE: REACH}[EndKind(ends.kind[2])]
@@ -80,20 +85,22 @@ def test_an_end_that_stops_short(gap: int, by: float) -> None:
 @pytest.mark.parametrize("over", [*TENTHS, 99, 100, 105, 106])
 def test_an_end_that_goes_beyond(over: int, by: float) -> None:
     ends = classify_ends(
-        table(tenths((-900, 0), (900, 0), by=by), tenths((3, -over), (3, 900), by=by)), coincide=COINCIDE, reach=REACH
+        table(tenths((-900, 0), (900, 0), by=by), tenths((3, -over), (3, 900), by=by)),
+        AIM,
+        coincide=COINCIDE,
+        reach=REACH,
     )
-    # Followed back for `reach`, the line meets what lies within `coincide` of where it is then.
-    known = EndKind.CONNECTED if over <= 5 else EndKind.OVERSHOOT if over <= 105 else EndKind.FREE
+    known = kind_by(over, EndKind.OVERSHOOT)
     assert ends.kind[2] == known
     if known is EndKind.OVERSHOOT:
-        assert ends.size[2] == pytest.approx(min(over, 100) * TENTH, abs=1e-8)
+        assert ends.size[2] == pytest.approx(over * TENTH, abs=1e-8)
         assert ends.other[2] == 0
 
 
 @pytest.mark.parametrize("depth", [-6, -5, 0, 5, 6, 100, 101])
 def test_depth_counts_like_a_way_in_the_plane(depth: int) -> None:
     ends = classify_ends(
-        table(tenths((-900, 0, 0), (900, 0, 0)), tenths((3, 0, depth), (3, 900, depth))),
+        table(tenths((-900, 0, 0), (900, 0, 0)), tenths((3, 0, depth), (3, 900, depth))), AIM,
         coincide=COINCIDE, reach=REACH,
     )  # fmt: skip
     assert ends.kind[2] == kind_by(abs(depth), EndKind.UNDERSHOOT)
@@ -102,7 +109,7 @@ def test_depth_counts_like_a_way_in_the_plane(depth: int) -> None:
 @pytest.mark.parametrize(("plane", "depth", "kind"), [(60, 80, EndKind.UNDERSHOOT), (60, 81, EndKind.FREE)])
 def test_plane_and_depth_are_joined_at_the_reach(plane: int, depth: int, kind: EndKind) -> None:
     ends = classify_ends(
-        table(tenths((-900, 0, 0), (900, 0, 0)), tenths((3, plane, depth), (3, 900, depth))),
+        table(tenths((-900, 0, 0), (900, 0, 0)), tenths((3, plane, depth), (3, 900, depth))), AIM,
         coincide=COINCIDE, reach=REACH,
     )  # fmt: skip
     assert ends.kind[2] == kind
@@ -111,20 +118,20 @@ def test_plane_and_depth_are_joined_at_the_reach(plane: int, depth: int, kind: E
 @pytest.mark.parametrize("opening", TENTHS)
 def test_a_line_is_closed_up_to_the_tolerance(opening: int) -> None:
     line = tenths((0, 0), (500, 0), (500, 500), (0, 500), (0, opening))
-    assert len(classify_ends(table(line), coincide=COINCIDE, reach=REACH).line) == (0 if opening <= 5 else 2)
+    assert len(classify_ends(table(line), AIM, coincide=COINCIDE, reach=REACH).line) == (0 if opening <= 5 else 2)
 
 
 def test_of_lines_at_one_distance_the_leftmost_is_named() -> None:
     short = tenths((0, 0), (0, -900))
     left, right = tenths((-9, 20), (-9, 900)), tenths((9, 20), (9, 900))
     for lines, named in (((left, right), 1), ((right, left), 2)):
-        ends = classify_ends(table(short, *lines), coincide=COINCIDE, reach=REACH)
+        ends = classify_ends(table(short, *lines), AIM, coincide=COINCIDE, reach=REACH)
         assert (ends.kind[0], ends.other[0]) == (EndKind.UNDERSHOOT, named)
 
 
 def test_the_last_meeting_is_the_one_nearest_to_the_end() -> None:
     bars = [tenths((-900, y), (900, y)) for y in (40, 60, 20)]
-    ends = classify_ends(table(*bars, tenths((0, 0), (0, 900))), coincide=COINCIDE, reach=REACH)
+    ends = classify_ends(table(*bars, tenths((0, 0), (0, 900))), AIM, coincide=COINCIDE, reach=REACH)
     assert (ends.kind[6], ends.other[6]) == (EndKind.OVERSHOOT, 2)
     assert ends.size[6] == pytest.approx(20 * TENTH)
 

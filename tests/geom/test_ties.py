@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import shapely
 from numpy.typing import NDArray
+from tests.rule_cases import common
 
 from foparq.check.registry import all_rules
 from foparq.check.rule import Rule
@@ -52,7 +53,9 @@ def linework(rng: np.random.Generator) -> Drawing:
         for x, y in rng.integers(0, 12, (2, 2)) * 0.004
     ]
     lone = shapely.LineString([(1, 1), (2, 1)])
-    return [*walks, *rings, *crumbs, *doubled, *gaps, lone, walks[0], walks[1]]
+    dashes = [shapely.LineString([(1 + 0.028 * n, 2), (1.02 + 0.028 * n, 2)]) for n in range(7)]
+    bars = [shapely.LineString([(1, y), (2, y)]) for y in (3, 4)] + [shapely.LineString([(2.02, 2), (2.02, 6)])]
+    return [*walks, *rings, *crumbs, *doubled, *gaps, lone, *dashes, *bars, walks[0], walks[1]]
 
 
 def areas(rng: np.random.Generator) -> Drawing:
@@ -91,7 +94,11 @@ def _turned(ring: Any, rng: np.random.Generator) -> Any:
 def said(rule: Rule, drawing: Drawing) -> Counter[tuple[Any, ...]]:
     """Findings with items named by their shape: equal shapes may stand for each other."""
     columns = MADE[rule.subject](drawing)
-    hits = rule.check(columns, **{name: TOLERANCES.get(name, BY_UNIT[unit]) for name, unit in rule.tolerances})
+    hits = rule.check(
+        columns,
+        **common(rule)
+        | {name: TOLERANCES.get(name, BY_UNIT[unit]) for name, unit in rule.tolerances if name not in common(rule)},
+    )
     shape = [shapely.normalize(item).wkt for item in columns.geometry]
     nothing = np.full(len(hits), "", dtype=object)
     keys = finding_keys(rule.code, nothing, nothing, nothing, place_on(hits.where), 0.001)

@@ -10,6 +10,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.rule_cases import common
 
 from foparq.check.registry import all_rules
 from foparq.findings.table import Severity
@@ -116,6 +117,19 @@ LOOSER = {
     "a wider gap": ('[completeness]\ngap = "1 m"\n', Point.VALUE, "completeness.gap", (1.0, "m"), (0.01, "m")),
     "a narrower gap": ('[completeness]\ngap = "1 mm"\n', Point.VALUE, "completeness.gap", (0.001, "m"), (0.01, "m")),
     "fewer findings written": ("[limits]\nwritten = 1\n", Point.VALUE, "limits.written", 1, 100_000),
+    "more runs alongside": (
+        '[linework]\nalongside = "30 deg"\n', Point.VALUE, "linework.alongside", (np.pi / 6, "rad"),
+        (np.pi / 12, "rad"),
+    ),
+    "a narrower cone": (
+        '[linework]\nahead = "45 deg"\n', Point.VALUE, "linework.ahead", (np.pi / 4, "rad"), (np.pi / 3, "rad"),
+    ),
+    "only ends of very long lines go beyond": (
+        '[linework]\nremainder = "3000 %"\n', Point.VALUE, "linework.remainder", (30.0, "1"), (3.0, "1"),
+    ),
+    "nothing is headed for": (
+        '[linework]\nheading = "0.2 mm @ scale"\n', Point.VALUE, "linework.heading", (0.01, "m"), (0.05, "m"),
+    ),
     "a scale of its own": ('scale = "1:50"\n', Point.SCALE, "", "1:50", ""),
 }  # fmt: skip
 
@@ -272,7 +286,7 @@ def test_a_tolerance_that_is_looser_finds_less_of_some_drawing(rule: str, name: 
     after = {**before, name: changed}
     entry = next(one for one in all_rules().values() if one.name == rule)
     make = areas_of if drawn[0].startswith("POLYGON") else lines_of
-    counts = [len(entry.check(make(drawn), **values)) for values in (before, after)]
+    counts = [len(entry.check(make(drawn), **{**common(entry), **values})) for values in (before, after)]
     assert counts[1] < counts[0]
     direction = LooserWhen.LARGER if changed > before[name] else LooserWhen.SMALLER
     assert TOLERANCES[rule, name] is direction

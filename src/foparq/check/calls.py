@@ -2,7 +2,7 @@
 """Calls of rules: which rule, on which layers, with which tolerances, and what it may not judge."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, SetAside, Status
 from foparq.model.inputs import Named
 from foparq.profile.schema import CheckSpec
+from foparq.units import Quantity
 
 _NAMED = 20  #: items set aside that are named; all are counted
 
@@ -25,11 +26,13 @@ class Call:
     spec: CheckSpec
     layers: tuple[Patterns, ...]  #: of each input
     scale: float | None
+    common: Mapping[str, Quantity] = field(default_factory=dict)  #: tolerances that the check does not state itself
 
     @property
     def tolerances(self) -> dict[str, float]:
         """Tolerances in SI units, by name."""
-        return {name: self.spec.tolerances[name].si(self.scale) for name, _ in self.rule.tolerances}
+        stated = {**self.common, **self.spec.tolerances}
+        return {name: stated[name].si(self.scale) for name, _ in self.rule.tolerances}
 
     @property
     def parameters(self) -> tuple[tuple[str, float, str], ...]:
@@ -46,15 +49,18 @@ class Call:
         return f"{source}: {texts[0]}"
 
 
-def calls_of(rule: Rule, spec: CheckSpec, scale: float | None, subject: Subject) -> list[Call]:
+def calls_of(
+    rule: Rule, spec: CheckSpec, scale: float | None, subject: Subject, common: Mapping[str, Quantity]
+) -> list[Call]:
     """Calls of one check of the profile on one part: one, or one a layer if the profile wants layers apart."""
     if spec.apart:
         alone = [
-            Call(rule, spec, (layer,) * len(rule.inputs), scale) for layer in subject.alone(rule.subject, spec.layers)
+            Call(rule, spec, (layer,) * len(rule.inputs), scale, common)
+            for layer in subject.alone(rule.subject, spec.layers)
         ]
         if alone:
             return alone
-    return [Call(rule, spec, tuple(spec.on.get(name, spec.layers) for name, _ in rule.inputs), scale)]
+    return [Call(rule, spec, tuple(spec.on.get(name, spec.layers) for name, _ in rule.inputs), scale, common)]
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from pathlib import Path
 from foparq.errors import RuleError, UsageError
 
 _FOLDER = Path(__file__).resolve().parent / "rules"
-_UNITS = {"Metres": "m", "SquareMetres": "m2", "Ratio": "1", "Count": "items"}
+_UNITS = {"Metres": "m", "SquareMetres": "m2", "Ratio": "1", "Count": "items", "Radians": "rad"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

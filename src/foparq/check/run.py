@@ -116,7 +116,7 @@ def results_of(part: Part, profile: Profile, scale: float | None, done: Sequence
     outcomes = [result.outcome for result in done]
     before = len(done)
     for n, (rule, spec) in enumerate(_checks(part, profile)):
-        for call in _calls(rule, spec, scale, subject):
+        for call in _calls(rule, spec, scale, subject, profile):
             if before:
                 before -= 1
                 continue
@@ -146,11 +146,12 @@ def _checks(part: Part, profile: Profile) -> list[Check]:
     return [check for check in ordered if kind is None or kind.knows(check[0].subject)]
 
 
-def _calls(rule: Rule, spec: CheckSpec, scale: float | None, subject: Subject) -> list[Call]:
+def _calls(rule: Rule, spec: CheckSpec, scale: float | None, subject: Subject, profile: Profile) -> list[Call]:
+    common = profile.linework.tolerances
     try:
-        return calls_of(rule, spec, scale, subject)
+        return calls_of(rule, spec, scale, subject, common)
     except Exception:  # noqa: BLE001 - the call meets the same again, where it is told
-        return [Call(rule, spec, (spec.layers,) * len(rule.inputs), scale)]
+        return [Call(rule, spec, (spec.layers,) * len(rule.inputs), scale, common)]
 
 
 def _before(rule: Rule, spec: CheckSpec, part: Part, scope: str) -> Outcome:

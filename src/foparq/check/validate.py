@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
 """A profile against the rules that exist: a wrong tolerance is told before any file is read."""
 
+from collections.abc import Mapping
+
 from foparq.check.registry import all_rules
 from foparq.check.rule import Rule
 from foparq.errors import ProfileError
 from foparq.profile.schema import CheckSpec, Profile
+from foparq.units import Quantity
 
 _SCALES = (10.0, 100.0)  #: tolerances are compared at a large and at a small scale
-_EXAMPLES = {"m": "0.2 mm @ scale", "m2": "1 m2", "1": "10 %", "items": "5 items"}
+_EXAMPLES = {"m": "0.2 mm @ scale", "m2": "1 m2", "1": "10 %", "items": "5 items", "rad": "15 deg"}
 
 
 def validate_checks(profile: Profile) -> None:
@@ -24,14 +27,14 @@ def validate_checks(profile: Profile) -> None:
             raise ProfileError(
                 "profile.unknown-rule", value=spec.rule, example="undershoot", file=spec.file, line=spec.line
             )
-        _validate_tolerances(spec, by_name[spec.rule])
+        _validate_tolerances(spec, by_name[spec.rule], profile.linework.tolerances)
     for element in profile.elements:
         for name in element.uses:
             if name not in by_name:
                 raise ProfileError("profile.unknown-rule", value=name, example="undershoot", file=profile.path, line=1)
 
 
-def _validate_tolerances(spec: CheckSpec, rule: Rule) -> None:
+def _validate_tolerances(spec: CheckSpec, rule: Rule, common: Mapping[str, Quantity]) -> None:
     place = {"file": spec.file, "line": spec.line, "rule": rule.name}
     wanted = dict(rule.tolerances)
     for name, quantity in spec.tolerances.items():
@@ -43,7 +46,7 @@ def _validate_tolerances(spec: CheckSpec, rule: Rule) -> None:
         if quantity.number < 0:
             raise ProfileError("profile.tolerance-negative", key=name, value=str(quantity), **place)
     for name, symbol in wanted.items():
-        if name not in spec.tolerances:
+        if name not in spec.tolerances and name not in common:
             raise ProfileError(
                 "profile.missing-tolerance", key=name, example=f'{name} = "{_EXAMPLES[symbol]}"', **place
             )

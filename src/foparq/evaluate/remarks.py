@@ -8,7 +8,8 @@ _REMARKS = frozenset({
     "absolute.upper", "relative.upper", "trend.not-normal", "trend.several", "residuals.outliers",
     "residuals.outliers-limit", "evidence.repeated", "evidence.repeated-distances", "evidence.taken", "evidence.flat",
     "evidence.names-only", "evidence.good", "evidence.absent-confirmed", "evidence.distances-confirmed",
-    "checks.preview", "checks.unfit", "faulty.free", "features.unmapped", "omission.net", "omission.unproven",
+    "checks.preview", "checks.unfit", "faulty.free", "faulty.probable",
+    "features.unmapped", "omission.net", "omission.unproven",
 })  # fmt: skip
 
 

@@ -121,8 +121,11 @@ def _crossing(a: Segments, b: Segments, within: float) -> tuple[Reals, Reals]:
     )
     divisor = np.where(placed, product, 1.0)
     on_a, on_b = cross(between, along_b) / divisor, cross(between, along_a) / divisor
-    inside = placed & (on_a >= 0) & (on_a <= 1) & (on_b >= 0) & (on_b <= 1)
-    return np.where(inside, on_a, np.nan), np.where(inside, on_b, np.nan)
+    # Rounding does not decide whether segments that touch end to end cross there.
+    inside = placed.copy()
+    for share, length in ((on_a, long_a), (on_b, long_b)):
+        inside &= np.abs(share - 0.5) * length <= 0.5 * length + ROUNDING
+    return np.where(inside, np.clip(on_a, 0.0, 1.0), np.nan), np.where(inside, np.clip(on_b, 0.0, 1.0), np.nan)
 
 
 def shared(a: Segments, b: Segments, *, within: float) -> Shared:

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Profiles changed for one run: rules chosen, tolerances set."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 
 from foparq.errors import QuantityError, UsageError
-from foparq.profile.schema import CheckSpec, Profile, ReadingSpec
+from foparq.profile.schema import CheckSpec, LineworkSpec, Profile, ReadingSpec
 from foparq.units import parse_any_quantity
 
 _EXAMPLE = "undershoot.reach=10mm"
+#: tables of a profile of which single keys may be set
+_SECTIONS: Mapping[str, tuple[type[BaseModel], str]] = {
+    "reading": (ReadingSpec, "reading.blocks=skip"), "linework": (LineworkSpec, "linework.alongside=10deg")
+}  # fmt: skip
 
 
 def choose(profile: Profile, names: Collection[str], helpers: Collection[str] = ()) -> Profile:
@@ -39,7 +43,7 @@ def with_settings(profile: Profile, settings: Sequence[str]) -> Profile:
     ----------
     settings : sequence of str
         ``"undershoot.reach=10mm"``, ``"*.coincide=1um"`` for every rule that has the tolerance,
-        ``"reading.blocks=skip"``.
+        ``"reading.blocks=skip"``, ``"linework.alongside=10deg"``.
 
     Raises
     ------
@@ -56,8 +60,8 @@ def _with_setting(profile: Profile, setting: str) -> Profile:
     name, dot, key = target.strip().rpartition(".")
     if not equals or not dot:
         raise UsageError("usage.setting", value=setting, example=_EXAMPLE)
-    if name == "reading":
-        return _with_reading(profile, key, text.strip(), setting)
+    if name in _SECTIONS:
+        return _with_section(profile, name, key, text.strip(), setting)
     try:
         quantity = parse_any_quantity(text)
     except QuantityError:
@@ -76,16 +80,14 @@ def _with_setting(profile: Profile, setting: str) -> Profile:
     return profile.model_copy(update={"checks": tuple(checks)})
 
 
-def _with_reading(profile: Profile, key: str, text: str, setting: str) -> Profile:
-    if key not in ReadingSpec.model_fields:
+def _with_section(profile: Profile, section: str, key: str, text: str, setting: str) -> Profile:
+    model, example = _SECTIONS[section]
+    if key not in model.model_fields:
         raise UsageError(
-            "usage.setting-unknown",
-            value=f"reading.{key}",
-            known=", ".join(ReadingSpec.model_fields),
-            example="reading.blocks=skip",
+            "usage.setting-unknown", value=f"{section}.{key}", known=", ".join(model.model_fields), example=example
         )
     try:
-        reading = ReadingSpec.model_validate({**dict(profile.reading), key: text})
+        changed = model.model_validate({**dict(getattr(profile, section)), key: text})
     except (ValidationError, QuantityError):
-        raise UsageError("usage.setting", value=setting, example="reading.blocks=skip") from None
-    return profile.model_copy(update={"reading": reading})
+        raise UsageError("usage.setting", value=setting, example=example) from None
+    return profile.model_copy(update={section: changed})

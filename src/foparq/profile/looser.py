@@ -45,6 +45,8 @@ _EVIDENCE = {
     "tie": _LARGER, "apart": _SMALLER, "search": _LARGER, "visible": _SMALLER, "finest": _DIFFERENT,
     "coarsest": _DIFFERENT,
 }  # fmt: skip
+#: of ``[linework]``: which change finds less
+_LINEWORK = {"ahead": _SMALLER, "alongside": _LARGER, "remainder": _LARGER, "heading": _SMALLER}
 _PATTERNS = 10  #: layer patterns that are named
 _WEIGHT = {severity: weight for weight, severity in enumerate(reversed(Severity))}
 
@@ -206,6 +208,8 @@ def _in_reading(own: Profile, other: Profile, scale: float) -> Iterator[Looser]:
         # Without any, no table is tied to a drawing and nothing passes.
         for name, when in _EVIDENCE.items():
             rows.append((f"evidence.{name}", getattr(own.evidence, name), getattr(other.evidence, name), when))
+    for name, when in _LINEWORK.items():
+        rows.append((f"linework.{name}", getattr(own.linework, name), getattr(other.linework, name), when))
     for subject, mine, theirs, when in rows:
         if _lets_more(mine, theirs, when, scale):
             yield Looser(point=Point.VALUE, subject=subject, own=_value(mine, scale), other=_value(theirs, scale))

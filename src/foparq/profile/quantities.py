@@ -14,6 +14,8 @@ def _quantity(symbol: str) -> BeforeValidator:
 
 
 Length = Annotated[Quantity, _quantity("m")]
+Angle = Annotated[Quantity, _quantity("rad")]
+Ratio = Annotated[Quantity, _quantity("1")]
 Area = Annotated[Quantity, _quantity("m2")]
 Share = Annotated[
     float, BeforeValidator(lambda text: text if isinstance(text, float) else parse_quantity(text, "1").si())

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from foparq.findings.table import Severity
 from foparq.profile.elements import ElementSpec
-from foparq.profile.quantities import AnyQuantity, Length, ScaleText, Strict
+from foparq.profile.quantities import Angle, AnyQuantity, Length, Ratio, ScaleText, Strict
 from foparq.units import Quantity
 
 
@@ -63,6 +63,23 @@ class EvidenceSpec(Strict):
     coarsest: ScaleText | None = None  #: and a coarser one
 
 
+class LineworkSpec(Strict):
+    """What the direction of linework means: ``[linework]``.
+
+    Tolerances of every rule that has them, unless the rule's own ``[[check]]`` says otherwise.
+    """
+
+    ahead: Angle = Quantity(60.0, "deg")  #: half-angle of the cone before an end in which it misses what is near
+    alongside: Angle = Quantity(15.0, "deg")  #: what turns less against an end runs alongside
+    remainder: Ratio = Quantity(300.0, "%")  #: an overshoot's line goes on beyond the meeting, in lengths of the stub
+    heading: Length = Quantity(1.0, "mm", at_scale=True)  #: how far an end may head for a line
+
+    @property
+    def tolerances(self) -> dict[str, Quantity]:
+        """All of them by name."""
+        return {name: getattr(self, name) for name in type(self).model_fields}
+
+
 class ReadingSpec(Strict):
     """How drawings are taken in: ``[reading]``."""
 
@@ -94,6 +111,7 @@ class Profile(Strict):
     reading: ReadingSpec
     completeness: CompletenessSpec | None = None
     evidence: EvidenceSpec | None = None  #: left out: nothing can be tied, and no table shows anything
+    linework: LineworkSpec = LineworkSpec()
     limits: LimitsSpec = LimitsSpec()
     checks: tuple[CheckSpec, ...]
     elements: tuple[ElementSpec, ...] = ()

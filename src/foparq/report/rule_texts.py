@@ -45,6 +45,12 @@ def rule_text(message: str, language: str) -> str | None:
     return None if text is None else text.strip()
 
 
+def has_part(code: str, part: str) -> bool:
+    """Whether the texts of a rule hold a part that not every rule has; a rule without texts has none."""
+    file = shipped("rules") / "texts" / f"{code}.toml"
+    return file.is_file() and any(part in texts for texts in rule_texts(code).values())
+
+
 def digest(manual: str) -> str:
     """What ``translates`` must say of a translation of this docstring: twelve hexadecimal digits."""
     return hashlib.blake2b(manual.encode(), digest_size=6).hexdigest()

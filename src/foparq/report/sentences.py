@@ -2,7 +2,7 @@
 """Sentences that every report shares: findings, reasons, outcomes and files in the language of the reader."""
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import cache
 from string import Formatter
 
@@ -17,6 +17,7 @@ from foparq.findings.table import Findings
 from foparq.model.delivery import Source
 from foparq.model.drawing import Repair, Skipped
 from foparq.report.record import AuditRecord
+from foparq.report.rule_texts import has_part
 from foparq.report.words import Words, printable
 
 _MEASURE = "measure-"  #: a count that has an ISO 19157 measure of its own
@@ -33,8 +34,9 @@ def finding_sentences(words: Words, findings: Findings, rows: Index) -> list[str
     Returns
     -------
     list of str, k
-        ``rules.CODE.finding`` with ``size``, ``limit`` (quantities), ``layer``, ``item``, ``handle``, ``other``,
-        ``inserts``, ``source`` and ``told`` (a repair) filled in.
+        ``rules.CODE.finding``, or ``finding_other`` where a rule has that for findings with a second item, with
+        ``size``, ``limit`` (quantities), ``layer``, ``item``, ``handle``, ``other``, ``inserts``, ``source`` and
+        ``told`` (a repair) filled in.
 
     Raises
     ------
@@ -45,9 +47,22 @@ def finding_sentences(words: Words, findings: Findings, rows: Index) -> list[str
     codes = findings.rule[rows]
     for code in dict.fromkeys(codes.tolist()):
         mine = np.flatnonzero(codes == code)
-        made[mine] = _filled(words, f"rules.{code}.finding", findings, rows[mine])
+        for message, some in _variants(code, findings, rows, mine):
+            made[some] = _filled(words, message, findings, rows[some])
     sentences: list[str] = made.tolist()
     return sentences
+
+
+def _variants(code: str, findings: Findings, rows: Index, mine: Index) -> Iterator[tuple[str, Index]]:
+    """The sentence of a rule, or where it has two, that for findings without and that with a second item."""
+    plain, with_other = f"rules.{code}.finding", f"rules.{code}.finding_other"
+    if not has_part(code, "finding_other"):
+        yield plain, mine
+        return
+    named = findings.other[rows[mine]] != ""
+    for message, some in ((plain, mine[~named]), (with_other, mine[named])):
+        if len(some):
+            yield message, some
 
 
 def _filled(words: Words, message: str, findings: Findings, rows: Index) -> list[str]:

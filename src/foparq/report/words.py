@@ -7,6 +7,7 @@ domain ``rules``, in one file a rule under ``rules/texts``. A message is named `
 """
 
 import gettext
+import math
 import os
 from collections.abc import Iterable, Mapping
 from functools import cache
@@ -24,6 +25,7 @@ _LADDERS = {
     "m2": ((1e-2, "mm²", 1e6, 1), (float("inf"), "m²", 1.0, 4)),
     "1": ((1e-4, "%", 1e2, 4), (float("inf"), "%", 1e2, 2)),
     "items": ((float("inf"), "", 1.0, 0),),
+    "rad": ((float("inf"), "°", 180 / math.pi, 1),),
 }
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 

@@ -81,6 +81,13 @@ def _judge(spec: FaultyRateSpec, evidence: Evidence, found: Tally, limit: float)
     remarks = (*undeclared_reasons(found, name), *unfit_remark(found, name), *((preview,) if found.preview else ()))
     if free := sum(outcome.found for outcome in evidence.outcomes if outcome.name == "free-end"):
         remarks = (*remarks, because("faulty.free", element=name, n=free))
+    heading = [outcome for outcome in evidence.outcomes if outcome.name == "probable-undershoot" and outcome.found]
+    if probable := sum(outcome.found for outcome in heading):
+        checked = sum(outcome.checked for outcome in heading)
+        far = max(value for outcome in heading for key, value, _ in outcome.parameters if key == "heading")
+        remarks = (
+            *remarks, because("faulty.probable", element=name, n=probable, checked=checked, heading=(far, "m"))
+        )  # fmt: skip
     if any(why is Because.CRASHED for why, _ in found.broken):
         return judged(ElementStatus.UNDECIDED, *broken, *remarks)
     if found.faulty / (found.checked + found.unrun) > limit:

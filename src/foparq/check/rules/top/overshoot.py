@@ -5,19 +5,22 @@ import numpy as np
 
 from foparq.check.rule import rule
 from foparq.findings.hits import Hits, hits
-from foparq.geom.ends import EndKind, classify_ends
+from foparq.geom.ends import Aim, EndKind, classify_ends
 from foparq.model.inputs import Lines
-from foparq.units import Metres
+from foparq.units import Metres, Radians, Ratio
 
 
 @rule("TOP012", "overshoot", limit="coincide", measures=("24",), requires=("GEO001", "GEO002", "TOP001"))
-def overshoot(lines: Lines, *, coincide: Metres, reach: Metres) -> Hits:
+def overshoot(
+    lines: Lines, *, coincide: Metres, reach: Metres, ahead: Radians, alongside: Radians, remainder: Ratio
+) -> Hits:
     """Line end that goes beyond the line it should meet.
 
-    *End*, *other linework* and *connected* are as in TOP011 undershoot. An end that is not connected is an
-    **overshoot** if the line, followed back from the end for at most ``reach`` of its own length, meets other linework:
-    crosses it, or comes as near as ``coincide`` in the plane and in depth. The length from the end to the last meeting
-    is more than ``coincide``. Where a piece meets without crossing, the meeting place nearest the end is taken.
+    *End*, *other linework*, *connected*, and how lines are followed on, are as in TOP011 undershoot. An end that is not
+    connected is an **overshoot** if the line, followed back from the end, meets other linework: crosses it, or comes as
+    near as ``coincide`` in the plane and in depth; if the stub from the end to the last meeting is longer than
+    ``coincide`` and at most ``reach``; and if the line goes on beyond the meeting for at least ``remainder`` times the
+    length of the stub. Where a piece meets without crossing, the meeting place nearest the end is taken.
 
     Parameters
     ----------
@@ -25,6 +28,10 @@ def overshoot(lines: Lines, *, coincide: Metres, reach: Metres) -> Hits:
         Linework that belongs together; boundaries of areas have no ends and are other linework.
     coincide, reach : float, metres
         Distance up to which two places are one, and beyond which they are unrelated.
+    ahead, alongside : float, radians
+        Half-angle of the cone in which an end misses what is near; what turns less runs alongside.
+    remainder : float
+        How many times the length of a stub its line goes on beyond the meeting.
 
     Returns
     -------
@@ -34,10 +41,10 @@ def overshoot(lines: Lines, *, coincide: Metres, reach: Metres) -> Hits:
 
     Notes
     -----
-    O(n log n). A line shorter than ``reach`` that meets other linework with one end only is an overshoot by its whole
-    length. Does not report lines that cross farther than ``reach`` from their ends.
+    O(n log n). A stub that is most of its own line, such as the arm of a cross, is none. Does not report lines that
+    cross farther than ``reach`` from their ends.
     """
     table = lines.polylines
-    ends = classify_ends(table, coincide=coincide, reach=reach)
+    ends = classify_ends(table, Aim(ahead, alongside, remainder), coincide=coincide, reach=reach)
     at = np.flatnonzero(ends.kind == EndKind.OVERSHOOT)
     return hits(ends.line[at], table.points(table.plane[ends.vertex[at]]), ends.size[at], ends.other[at])
