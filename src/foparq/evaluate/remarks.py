@@ -6,7 +6,8 @@ from foparq.evaluate.quality import Element, Reason
 #: messages that decide nothing, wherever they stand
 _REMARKS = frozenset({
     "absolute.upper", "relative.upper", "trend.not-normal", "trend.several", "residuals.outliers",
-    "residuals.outliers-limit", "evidence.repeated", "evidence.repeated-distances", "evidence.taken", "evidence.flat",
+    "residuals.outliers-limit", "outlier.contradicted", "outlier.borne-out",
+    "evidence.repeated", "evidence.repeated-distances", "evidence.taken", "evidence.flat",
     "evidence.names-only", "evidence.good", "evidence.absent-confirmed", "evidence.distances-confirmed",
     "checks.preview", "checks.unfit", "faulty.free", "features.unmapped", "omission.net", "omission.unproven",
 })  # fmt: skip
