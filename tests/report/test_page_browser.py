@@ -87,19 +87,22 @@ def test_results_are_seen_on_a_telephone_without_moving_the_table(browser: "Brow
 def test_the_language_is_chosen_by_mouse_and_by_keyboard(browser: "Browser", path: Path) -> None:
     shown = Shown(browser, path)
     heading = shown.page.locator("h1:visible")
-    assert heading.inner_text() == "Entrega não conforme em relação a ET/DOC-FOPARQ, classe A."
+    assert heading.inner_text() == "Entrega não conforme em relação à especificação ET/DOC-FOPARQ, classe A."
     shown.page.locator("label[for=show-en]").click()
     assert heading.inner_text() == "The delivery does not conform to ET/DOC-FOPARQ, classe A."
     assert shown.page.evaluate("document.documentElement.lang") == "en"
     assert shown.page.title() == "Audit report: Estação Ferroviária de Presidente Prudente"
     shown.page.locator("#show-en").focus()
     shown.page.keyboard.press("ArrowLeft")
-    assert heading.inner_text() == "Entrega não conforme em relação a ET/DOC-FOPARQ, classe A."
+    assert heading.inner_text() == "Entrega não conforme em relação à especificação ET/DOC-FOPARQ, classe A."
 
 
 def test_without_script_everything_is_there(browser: "Browser", path: Path, rejected: AuditRecord) -> None:
     shown = Shown(browser, path, script=False)
-    assert shown.page.locator("h1:visible").inner_text() == "Entrega não conforme em relação a ET/DOC-FOPARQ, classe A."
+    assert (
+        shown.page.locator("h1:visible").inner_text()
+        == "Entrega não conforme em relação à especificação ET/DOC-FOPARQ, classe A."
+    )
     shown.page.locator("label[for=show-en]").click()
     assert shown.page.locator("h1:visible").inner_text() == "The delivery does not conform to ET/DOC-FOPARQ, classe A."
     assert shown.page.locator(".picture:visible .mark").count() == np.sum(~shapely.is_empty(rejected.findings.sheet))

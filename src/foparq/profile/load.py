@@ -53,6 +53,7 @@ _EXAMPLES = {
     "class": 'class = "window"',
     "confirmed": "[[confirmed]]",
     "counted": "counted = 12",
+    "date": "date = 2026-11-30",
     "decision": "[[decision]]",
     "element": 'element = "Q5"',
     "kind": 'kind = "omission"',

@@ -11,7 +11,7 @@ from foparq.evaluate.quality import QualityReport
 from foparq.findings.counts import Reading
 from foparq.names import folded, of_kind
 from foparq.report.balances import BalanceRow, balance_note, balance_rows
-from foparq.report.words import Words, printable
+from foparq.report.words import Words
 
 TONES = 6  #: colours of outlines; further classes begin again
 _OUTLINES = 5_000  #: outlines of one drawing that are shown
@@ -29,7 +29,7 @@ class CompletenessView:
 class OutlinePath:
     """Outlines of one class on one drawing, of one reading."""
 
-    label: str  #: class
+    label: str  #: class, as the list spells it
     tone: int  #: from 0
     reading: str  #: ``counted`` or ``open``: a part, or a copy
     count: int
@@ -63,7 +63,7 @@ def outline_paths(drawing: str, quality: QualityReport, path: Callable[[Geometri
         counted = found.reading[of] == Reading.COUNTED
         for reading, rows in (("counted", of[counted]), ("open", of[~counted])):
             if len(rows):
-                label = printable(shown.get(kind, str(found.feature_class[rows[0]])))
+                label = shown.get(kind, str(found.feature_class[rows[0]]))
                 made.append(
                     OutlinePath(
                         label=label, tone=order.index(kind) % TONES, reading=reading, count=len(rows),

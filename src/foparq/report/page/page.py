@@ -19,6 +19,7 @@ from foparq.report.page.marks import MarkView, mark_views
 from foparq.report.page.residuals import ResidualsView, Vector, residual_views, vectors
 from foparq.report.page.tables import ElementView, Headline, InputView, element_views, headline, input_views
 from foparq.report.record import AuditRecord
+from foparq.report.sentences import class_word
 from foparq.report.templates import environment, shipped_text
 from foparq.report.words import LANGUAGES, Words, printable
 
@@ -93,6 +94,7 @@ def page(record: AuditRecord) -> str:
             style_hash=_hash("page.css"),
             script_hash=_hash("page.js"),
             printable=printable,
+            class_word=class_word,
         )
     )
 
