@@ -193,7 +193,7 @@ def test_what_was_not_checked_is_said(rejected: AuditRecord) -> None:
     for part in (
         "Nem tudo foi verificado:",
         "3 arquivos não foram considerados",
-        "2 elementos de qualidade ficaram sem decisão",
+        "elementos de qualidade exigidos ficaram sem decisão",
         "4 entidades dos desenhos não chegaram a nenhuma verificação",
         "O foparq falhou aqui: erro do programa, não da entrega.",
         "Não havia nada do tipo que esta regra verifica.",

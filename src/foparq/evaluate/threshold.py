@@ -143,7 +143,8 @@ def _narrowly(sample: Sample, found: Moments, spec: ReferencedSpec, limit: float
     if less >= limit:
         return ()
     upper = rmse_upper(found.rmse, found.n, confidence=spec.confidence)
-    told = {"over": (found.rmse - limit, "m"), "less": (less, "m"), "upper": (upper, "m")}
+    more = rmse_with_reference(found.rmse, sample.survey)
+    told = {"over": (found.rmse - limit, "m"), "less": (less, "m"), "more": (more, "m"), "upper": (upper, "m")}
     return (sample.reason("measured", value=(found.rmse, "m"), limit=(limit, "m"), **told),)
 
 

@@ -48,13 +48,13 @@ def balance_note(words: Words, quality: QualityReport) -> str:
         return ""
     if len(counted) == len([one for one in quality.balances if one.state in COMPARED]):
         return words("report.balance.only-counted")
-    return words("report.balance.some-counted", classes=[_label(words, one) for one in counted[:10]])
+    return words("report.balance.some-counted", classes=[label_of(words, one) for one in counted[:10]])
 
 
 def _row(words: Words, balance: ClassBalance, quality: QualityReport) -> BalanceRow:
     compared = balance.state in COMPARED
     return BalanceRow(
-        label=_label(words, balance),
+        label=label_of(words, balance),
         state=balance.state.value,
         word=words(
             f"report.balance.state.{balance.state.value}",
@@ -74,7 +74,8 @@ def _row(words: Words, balance: ClassBalance, quality: QualityReport) -> Balance
     )
 
 
-def _label(words: Words, balance: ClassBalance) -> str:
+def label_of(words: Words, balance: ClassBalance) -> str:
+    """Class in the language of the reader, and facade: ``"janela / N"``; safe to show."""
     name = class_word(words, balance.feature_class)
     return f"{name} / {printable(balance.facade)}" if balance.facade else name
 

@@ -8,7 +8,7 @@ domain ``rules``, in one file a rule under ``rules/texts``. A message is named `
 
 import gettext
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 
 from foparq.errors import FoparqError
@@ -25,6 +25,7 @@ _LADDERS = {
     "1": ((1e-4, "%", 1e2, 4), (float("inf"), "%", 1e2, 2)),
     "items": ((float("inf"), "", 1.0, 0),),
 }
+MINUS = "\N{MINUS SIGN}"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -85,6 +86,7 @@ class Words:
         if value != value:  # noqa: PLR0124 - not a number
             return "–"
         text = f"{value:,.{decimals}f}"
+        text = text.replace("-", MINUS if text.strip("-0.") else "")
         if self.language == "pt-BR":
             text = text.translate(str.maketrans(",.", ".,"))
         return text
@@ -102,11 +104,19 @@ class Words:
         name, factor, decimals = next((row[1:] for row in ladder if abs(value) < row[0]), ladder[-1][1:])
         if not unit and 0.0 < abs(value) < 0.5 * 10.0**-decimals:
             digit, power = f"{value:.0e}".split("e")
+            digit = digit.replace("-", MINUS)
             return f"{digit} × 10{str(int(power)).translate(_RAISED)}"
         text = self.number(value * factor, decimals)
         if decimals:
             text = text.rstrip("0").rstrip(".,")
         return f"{text} {name}".rstrip()
+
+    def column(self, values: Sequence[float]) -> list[str]:
+        """Lengths of one column of a table, metres, in the unit of the greatest and with as many decimals each."""
+        ladder = _LADDERS["m"]
+        greatest = max(map(abs, values), default=0.0)
+        name, factor, decimals = next((row[1:] for row in ladder if greatest < row[0]), ladder[-1][1:])
+        return [f"{self.number(value * factor, decimals)} {name}" for value in values]
 
     def _catalogue(self, domain: str) -> gettext.NullTranslations:
         if domain not in self._catalogues:
