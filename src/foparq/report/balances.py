@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from foparq.evaluate.decisions import quoted
 from foparq.evaluate.quality import BalanceState, ClassBalance, QualityReport
 from foparq.findings.counts import FoundFeatures, Reading
-from foparq.report.sentences import class_word
+from foparq.report.sentences import COUNTING, class_word
 from foparq.report.words import Words, printable
 
 _LISTED = 60  #: ids of the list or of the drawing that people are shown
 
-_COUNTING = frozenset({"3", "7"})  #: measures of commission and omission
 #: states in which the numbers of list and drawing can be compared
 COMPARED = frozenset({BalanceState.EVEN, BalanceState.SHORT, BalanceState.OVER, BalanceState.OPEN})
 
@@ -81,7 +80,7 @@ def label_of(words: Words, balance: ClassBalance) -> str:
 
 
 def _counting(quality: QualityReport) -> list[str]:
-    return [element.id for element in quality.elements if element.measure_id in _COUNTING]
+    return [element.id for element in quality.elements if element.measure_id in COUNTING]
 
 
 def may_differ(balance: ClassBalance) -> bool:

@@ -124,6 +124,7 @@ def reason_sentence(words: Words, reason: Reason) -> str:
     return words(f"evaluate.{reason.message}", **fields)
 
 
+COUNTING = frozenset({"3", "7"})  #: measures of commission and omission
 #: fields of reasons that hold a class, its facade, and what was counted: ``"window / N: 20–40"``
 _LABELS = frozenset({"label", "classes"})
 _LABEL = re.compile(r"(?P<name>.+?)(?: / (?P<facade>.+?))?(?P<count>: \d+–\d+)?")
@@ -135,14 +136,26 @@ def class_word(words: Words, name: str) -> str:
 
 
 def _labels(words: Words, value: object) -> object:
-    if isinstance(value, list | tuple):
-        return [_labels(words, part) for part in value]
-    found = _LABEL.fullmatch(str(value))
+    return (
+        [label_text(words, str(part)) for part in value]
+        if isinstance(value, list | tuple)
+        else label_text(words, str(value))
+    )
+
+
+def label_text(words: Words, label: str) -> str:
+    """Class and facade in words, safe to show: ``"window / N: 20–40"`` as ``"janela (fachada N): 20–40"``."""
+    found = _LABEL.fullmatch(label)
     if found is None:
-        return value
+        return printable(label)
     name, count = class_word(words, found["name"]), found["count"] or ""
     told = words("report.label.facade", name=name, facade=found["facade"]) if found["facade"] else name
     return f"{told}{count}"
+
+
+def detail_name(words: Words, element: Element, name: str) -> str:
+    """What a detail of an element counts: a class on a facade where features are counted, else a rule."""
+    return label_text(words, name) if element.measure_id in COUNTING else printable(name)
 
 
 def _told(words: Words, value: object) -> object:

@@ -13,6 +13,7 @@ from foparq.report.page.findings import Group
 from foparq.report.page.mending import Cause, causes_of, tasks_of
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import (
+    detail_name,
     element_kind,
     element_title,
     parameter_name,
@@ -206,7 +207,7 @@ def _element_view(words: Words, element: Element) -> ElementView:
             *parameters,
             (words("report.elements.method"), words(f"report.method.{element.method}")),
         ),
-        details=tuple((printable(name), _share(words, found, out_of)) for name, found, out_of in element.details),
+        details=tuple((detail_name(words, element, name), _share(words, *of)) for name, *of in element.details),
     )
 
 
