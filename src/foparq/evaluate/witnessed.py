@@ -8,12 +8,13 @@ the reference is wrong, the distances of the drawing are right.
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from foparq.accuracy.differences import differences
-from foparq.accuracy.error_share import error_share, point_effects
-from foparq.columns import Index, Reals
+from foparq.accuracy.error_share import ErrorShare, error_share, point_effects
+from foparq.columns import Coordinates, Index, Reals
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Element, Reason, because
 from foparq.evaluate.tied import tied_distances
@@ -94,22 +95,52 @@ def _ends_at(at: Index, row: int, wrong: Index) -> Index:
     return chosen
 
 
+class Suspected(NamedTuple):
+    """What distances say of the difference at a point."""
+
+    which: str  #: ``"drawing"``, ``"reference"`` or ``""``
+    shown: ErrorShare
+    effects: Reals  #: (n,) what the difference would do to each distance, metres
+
+
+def suspected(step: Coordinates, difference: Reals, found: Reals, usual: Reals, tape: float) -> Suspected:
+    """Whether distances that end at a point point to the drawing or to the reference.
+
+    Parameters
+    ----------
+    step : (n, 3) metres
+        From the far ends to the point, as drawn.
+    difference : (3,) metres
+        Delivered minus surveyed at the point.
+    found : (n,) metres
+        Delivered minus measured distances.
+    usual : (3,) metres
+        Standard deviation of ordinary differences of points.
+    tape : float, metres
+        Standard deviation of the measured distances.
+    """
+    effects, directions = point_effects(step, difference, np.zeros_like(step))
+    shown = error_share(effects, found, directions, point_sd=usual, sd=tape)
+    none_fits, all_fits = (abs(shown.share - share) <= _BEYOND * shown.sd for share in (0.0, 1.0))
+    if none_fits == all_fits or not shown.p >= _SIGNIFICANCE:
+        return Suspected("", shown, effects)
+    return Suspected("reference" if none_fits else "drawing", shown, effects)
+
+
+_MESSAGES = {"reference": "outlier.contradicted", "drawing": "outlier.borne-out"}
+
+
 def _judged(
     id_: str, place: Reals, difference: Reals, far: Reals, found: Reals, usual: Reals, survey: float, tape: float
 ) -> Reason | None:
     # A depth that nobody delivered is that of a flat drawing: the distance runs within it.
-    step = np.nan_to_num(place - far)
-    effects, directions = point_effects(step, np.nan_to_num(difference), np.zeros_like(step))
-    shown = error_share(effects, found, directions, point_sd=usual, sd=tape)
-    if not shown.p >= _SIGNIFICANCE:
-        return None
-    none_fits, all_fits = (abs(shown.share - share) <= _BEYOND * shown.sd for share in (0.0, 1.0))
-    if none_fits == all_fits:
+    which, shown, effects = suspected(np.nan_to_num(place - far), np.nan_to_num(difference), found, usual, tape)
+    if not which:
         return None
     fields = {
         "id": id_, "n": len(found), "most": (float(np.abs(found).max()), "m"),
         "effect": (float(np.abs(effects).max()), "m"), "share": (round(shown.share, 2), "1"),
-        "share_sd": (round(shown.sd, 2), "1"),
-        "significance": (_SIGNIFICANCE, "1"), "tape": (tape, "m"), "survey": (survey, "m"),
+        "share_sd": (round(shown.sd, 2), "1"), "significance": (_SIGNIFICANCE, "1"), "tape": (tape, "m"),
+        "survey": (survey, "m"),
     }  # fmt: skip
-    return because("outlier.contradicted" if none_fits else "outlier.borne-out", **fields)
+    return because(_MESSAGES[which], **fields)
