@@ -227,3 +227,21 @@ def test_nothing_is_tied_without_a_known_unit() -> None:
     delivery = Delivery(title="", sources=(), parts=(unknown,), checkpoints=checkpoints(in_space(CORNERS)))
     found = tie_evidence(delivery, NEAR)
     assert (found.points, found.drawings) == (None, 0)
+
+
+def test_an_end_is_a_checkpoint_by_id_or_by_place() -> None:
+    """D0 names its ends, D1 gives their places, D2 one place at a point and one at none, D3 names no point."""
+    points = checkpoints(in_space(CORNERS[:4]))
+    corners = in_space(CORNERS)
+    places = np.full((4, 2, 3), np.nan)
+    places[1] = corners[[3, 2]] + 0.0004
+    places[2] = corners[[1, 6]]
+    lengths = distances([("v0", "V2"), ("", ""), ("", ""), ("X", "V1")], [1.0] * 4, places=places)
+    assert ends(lengths, points).at.tolist() == [[0, 2], [3, 2], [1, -1], [-1, 1]]
+    assert ends(lengths).at.tolist() == [[-1, -1]] * 4
+
+
+def test_a_place_that_two_checkpoints_share_names_neither() -> None:
+    points = checkpoints(in_space(CORNERS[[0, 0, 1]]))
+    places = in_space(CORNERS[[0, 1]])[np.newaxis]
+    assert ends(distances([("", "")], [1.0], places=places), points).at.tolist() == [[-1, 2]]

@@ -15,9 +15,11 @@ from foparq.errors import ManifestError
 from foparq.evaluate.decisions import wrong_decision
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import ElementStatus, QualityReport, Verdict
-from foparq.model.delivery import Delivery
+from foparq.model.delivery import Delivery, Source, SourceStatus
 from foparq.model.statements import Decision
 from foparq.profile.load import load_manifest
+from foparq.report.sentences import reason_sentence
+from foparq.report.words import Words
 
 PASS, FAIL, UNDECIDED = ElementStatus.PASS, ElementStatus.FAIL, ElementStatus.UNDECIDED
 Q4, Q5 = spec("commission", id="Q4"), spec("omission", id="Q5")
@@ -127,3 +129,46 @@ def test_a_decision_needs_a_whole_number_and_known_keys(tmp_path: Path, line: st
     path.write_text('[[decision]]\nelement = "Q5"\nclass = "window"\nby = " "\nreason = "b"\ncounted = 1\n')
     with pytest.raises(ManifestError):
         load_manifest(path)
+
+
+def test_both_elements_ask_for_the_same_one_decision() -> None:
+    commission, omission = (dict(one.why[0].fields) for one in judged(30).elements)
+    assert commission["ask"] == omission["ask"]
+    assert commission["elements"] == omission["elements"] == ["Q4", "Q5"]
+    (reading,) = commission["readings"]
+    said = dict(reading.fields)
+    assert (said["label"], said["low"], said["high"], said["listed"]) == ("window / N", 20, 40, 30)
+
+
+def test_what_a_person_decided_stands_with_what_decides() -> None:
+    """It is what rejects, or what accepts: no remark."""
+    for number in (20, 30):
+        report = judged(30, decision(number))
+        assert "features.decided" in [reason.message for reason in report.why]
+        assert "features.decided" not in [reason.message for reason in report.remarks]
+    assert [reason.message for reason in judged(30, decision(20)).why] == ["omission.fail", "features.decided"]
+
+
+def test_a_decision_may_have_a_day(tmp_path: Path) -> None:
+    path = tmp_path / "delivery.toml"
+    said = '[[decision]]\nelement = "Q5"\nclass = "window"\nby = "A"\nreason = "b"\ncounted = 1\n'
+    for line, day in (("date = 2026-02-28", "2026-02-28"), ('date = "2026-02-28"', "2026-02-28"), ("", "")):
+        path.write_text(said + line)
+        assert load_manifest(path).decision[0].date == day
+    for line in ('date = "28/02/2026"', "date = 2026-02-28T10:00:00", "date = 20260228", 'date = "2026-02-30"'):
+        path.write_text(said + line)
+        with pytest.raises(ManifestError) as caught:
+            load_manifest(path)
+        assert caught.value.fields["example"] == "date = 2026-11-30"
+    (told,) = (one for one in judged(30, decision(20, date="2026-02-28")).why if one.message == "features.decided")
+    for language in ("en", "pt-BR"):
+        assert "A. Souza (2026-02-28)" in reason_sentence(Words(language), told)
+
+
+def test_who_decides_is_told_which_manifest_was_audited() -> None:
+    sources = (Source(path="delivery.toml", role="manifest", sha256="ab" * 32, bytes=1, status=SourceStatus.READ),)
+    for decisions, told in (((), []), ((decision(30),), ["ab" * 32])):
+        signed = replace(delivery(30, *decisions), sources=sources)
+        report = judge(Q4, Q5, delivery=signed, counts=counted(FRAMES))
+        found = [dict(one.fields)["sha256"] for one in report.remarks if one.message == "verdict.signed"]
+        assert found == told

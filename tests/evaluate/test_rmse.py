@@ -318,3 +318,15 @@ def test_a_better_survey_never_costs_a_pass(differences: list[float], first: flo
 def test_leaving_points_out_never_helps(differences: list[float], missing: int) -> None:
     left_out = np.r_[differences, np.full(missing, math.nan)]
     assert one(Q2, delivery=surveyed(lengths=distances(left_out))).status is not PASS
+
+
+@pytest.mark.parametrize(("rmse", "told"), [(15.15, True), (15.25, True), (15.35, False), (40.0, False), (14.9, False)])
+def test_a_failure_that_a_better_survey_might_turn_says_which_number_decides(rmse: float, *, told: bool) -> None:
+    """sqrt(15.297^2 - 3^2) = 15: from there on the survey explains nothing of the failure."""
+    differences = np.array([1.0, -1.0] * 5) * rmse * MM
+    element = judge(spec("absolute", id="Q1"), delivery=surveyed(checkpoints(differences, resolution=0.0))).elements[0]
+    said = [dict(one.fields) for one in element.why if one.message == "absolute.measured"]
+    assert bool(said) is told
+    if told:
+        assert said[0]["less"] == (pytest.approx(np.sqrt(rmse**2 - 9) * MM), "m")
+        assert said[0]["over"] == (pytest.approx((rmse - 15) * MM), "m")

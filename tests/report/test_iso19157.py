@@ -220,7 +220,7 @@ def test_single_differences_are_listed_worst_first() -> None:
     residuals = Residuals(axis="Z", rows=rows, significance=0.05, most=1, n=2, rmse=0.05, rest=0.0021)
     (node, _) = reports(quality_xml(record((element("Q1-Z", residuals=residuals),))))
     run = node.xpath("string(mdq:result[last()]//mdq:statement/*)", namespaces=NAMESPACES)
-    assert run.index("P6: -71,3 mm (conta; destoa dos demais)") < run.index("P1: 2,1 mm (conta)")
+    assert run.index("P6: \N{MINUS SIGN}71,3 mm (conta; discrepante)") < run.index("P1: 2,1 mm (conta)")
 
 
 def test_a_conformance_result_cites_the_specification_and_explains_itself() -> None:

@@ -151,9 +151,13 @@ def test_the_language_of_the_record_comes_first(rejected: AuditRecord, language:
 @pytest.mark.parametrize(
     ("verdict", "portuguese", "english"),
     [
-        (Verdict.ACCEPTED, "Entrega conforme em relação a ET/DOC", "The delivery conforms to ET/DOC"),
-        (Verdict.REJECTED, "Entrega não conforme em relação a ET/DOC", "The delivery does not conform to ET/DOC"),
-        (Verdict.UNDECIDED, "inconclusiva em relação a ET/DOC", "inconclusive with respect to ET/DOC"),
+        (Verdict.ACCEPTED, "Entrega conforme em relação à especificação ET/DOC", "The delivery conforms to ET/DOC"),
+        (
+            Verdict.REJECTED,
+            "Entrega não conforme em relação à especificação ET/DOC",
+            "The delivery does not conform to ET/DOC",
+        ),
+        (Verdict.UNDECIDED, "inconclusiva em relação à especificação ET/DOC", "inconclusive with respect to ET/DOC"),
     ],
 )
 def test_the_verdict_is_a_sentence(rejected: AuditRecord, verdict: Verdict, portuguese: str, english: str) -> None:
@@ -189,7 +193,7 @@ def test_what_was_not_checked_is_said(rejected: AuditRecord) -> None:
     for part in (
         "Nem tudo foi verificado:",
         "3 arquivos não foram considerados",
-        "2 elementos de qualidade ficaram sem decisão",
+        "elementos de qualidade exigidos ficaram sem decisão",
         "4 entidades dos desenhos não chegaram a nenhuma verificação",
         "O foparq falhou aqui: erro do programa, não da entrega.",
         "Não havia nada do tipo que esta regra verifica.",

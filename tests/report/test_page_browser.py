@@ -87,19 +87,22 @@ def test_results_are_seen_on_a_telephone_without_moving_the_table(browser: "Brow
 def test_the_language_is_chosen_by_mouse_and_by_keyboard(browser: "Browser", path: Path) -> None:
     shown = Shown(browser, path)
     heading = shown.page.locator("h1:visible")
-    assert heading.inner_text() == "Entrega não conforme em relação a ET/DOC-FOPARQ, classe A."
+    assert heading.inner_text() == "Entrega não conforme em relação à especificação ET/DOC-FOPARQ, classe A."
     shown.page.locator("label[for=show-en]").click()
     assert heading.inner_text() == "The delivery does not conform to ET/DOC-FOPARQ, classe A."
     assert shown.page.evaluate("document.documentElement.lang") == "en"
     assert shown.page.title() == "Audit report: Estação Ferroviária de Presidente Prudente"
     shown.page.locator("#show-en").focus()
     shown.page.keyboard.press("ArrowLeft")
-    assert heading.inner_text() == "Entrega não conforme em relação a ET/DOC-FOPARQ, classe A."
+    assert heading.inner_text() == "Entrega não conforme em relação à especificação ET/DOC-FOPARQ, classe A."
 
 
 def test_without_script_everything_is_there(browser: "Browser", path: Path, rejected: AuditRecord) -> None:
     shown = Shown(browser, path, script=False)
-    assert shown.page.locator("h1:visible").inner_text() == "Entrega não conforme em relação a ET/DOC-FOPARQ, classe A."
+    assert (
+        shown.page.locator("h1:visible").inner_text()
+        == "Entrega não conforme em relação à especificação ET/DOC-FOPARQ, classe A."
+    )
     shown.page.locator("label[for=show-en]").click()
     assert shown.page.locator("h1:visible").inner_text() == "The delivery does not conform to ET/DOC-FOPARQ, classe A."
     assert shown.page.locator(".picture:visible .mark").count() == np.sum(~shapely.is_empty(rejected.findings.sheet))
@@ -173,14 +176,16 @@ def test_layers_can_be_hidden(browser: "Browser", path: Path) -> None:
 
 def test_paper_shows_one_language_whole_and_no_controls(browser: "Browser", path: Path) -> None:
     shown = Shown(browser, path)
+    whole = shown.view()
     shown.page.locator(".tools:visible [data-do=in]").click()
+    assert shown.view() != whole
     shown.page.emulate_media(media="print")
     shown.page.evaluate("dispatchEvent(new Event('beforeprint'))")
     assert shown.page.locator("main:visible").count() == 1
     for control in (".strip", ".tools", "nav", ".toggle"):
         assert shown.page.locator(f"{control}:visible").count() == 0
     assert shown.page.locator("details:visible dl").first.is_visible()
-    assert shown.view()[:2] == [0, 0]
+    assert shown.view() == whole
     assert shown.page.pdf(format="A4").startswith(b"%PDF")
 
 

@@ -77,7 +77,8 @@ def test_the_meaning_of_a_rule_is_the_first_paragraph_of_its_manual() -> None:
 
 
 @pytest.mark.parametrize(
-    ("value", "shown"), [(3e-7, "3 × 10⁻⁷"), (0.0, "0"), (0.0005, "0,001"), (0.91, "0,91"), (-8.2e-5, "-8 × 10⁻⁵")]
+    ("value", "shown"),
+    [(3e-7, "3 × 10⁻⁷"), (0.0, "0"), (0.0005, "0,001"), (0.91, "0,91"), (-8.2e-5, "\N{MINUS SIGN}8 × 10⁻⁵")],
 )
 def test_a_bare_number_that_is_not_nought_is_not_written_as_nought(value: float, shown: str) -> None:
     assert Words("pt-BR").quantity(value, "") == shown

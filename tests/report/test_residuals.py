@@ -2,6 +2,7 @@
 """Differences in the page, in ``audit.json`` and in ``findings.gpkg`` say what the quality report says."""
 
 import json
+import math
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +15,7 @@ from pyogrio.raw import read
 from foparq.evaluate.quality import Residual, Residuals, Standing
 from foparq.report.audit_json import audit_json
 from foparq.report.findings_gpkg import write_findings_gpkg
+from foparq.report.page.drawing import picture_of
 from foparq.report.page.page import page
 from foparq.report.record import AuditRecord
 from foparq.report.residuals import point_residuals
@@ -109,10 +111,49 @@ def test_the_worst_is_that_of_the_greatest_share_of_its_limit(measured: AuditRec
     assert (worst[0].id, worst[1].id) == ("Q1-X", "P1")
 
 
-def test_only_the_outlier_bears_its_id_on_the_drawing(measured: AuditRecord) -> None:
-    vectors = re.findall(r'<g class="vector [^"]*".*?</g></g>', page(measured))
-    assert {re.sub("<[^>]*>", "", found) for one in vectors for found in re.findall("<text.*?</text>", one)} == {"P2"}
-    assert all(("<text" in one) == ('class="vector outlier"' in one) for one in vectors)
+def test_every_point_bears_its_id_on_the_drawing_and_the_outlier_in_its_colour(measured: AuditRecord) -> None:
+    vectors = re.findall(r'<g class="vector ([^"]*)".*?<text[^>]*>(.*?)</text>', page(measured))
+    assert set(vectors) == {("", "P1"), ("outlier", "P2"), ("", "&lt;b&gt;")}
+
+
+def test_of_many_points_only_outliers_bear_their_ids(measured: AuditRecord) -> None:
+    def many(one: Residuals) -> Residuals:
+        return replace(one, rows=(*one.rows, *(replace(one.rows[-1], id=f"M{n}", outlier=False) for n in range(60))))
+
+    elements = tuple(
+        one if one.residuals is None else replace(one, residuals=many(one.residuals))
+        for one in measured.quality.elements
+    )
+    text = page(replace(measured, quality=replace(measured.quality, elements=elements)))
+    vectors = re.findall(r'<g class="vector ([^"]*)".*?<circle r="3"/>(?:<text[^>]*>(.*?)</text>)?', text)
+    assert [label for _, label in vectors if label] == ["P2"] * 2
+    assert len(vectors) == 2 * 63
+
+
+def test_arrows_point_where_the_differences_do(measured: AuditRecord) -> None:
+    """On the sheet y grows downward, and so does the angle of a turn."""
+    found = re.findall(
+        r'd="M0 0l(-?\d+) (-?\d+)"/>.*?translate\((-?\d+) (-?\d+)\) rotate\((-?[\d.]+)\)', page(measured)
+    )
+    assert len(found) == 2 * 3
+    for dx, dy, x, y, turn in (map(float, one) for one in found):
+        assert (dx, dy) == (x, y)
+        assert math.degrees(math.atan2(dy, dx)) == pytest.approx(turn, abs=0.06)
+
+
+def test_differences_of_one_table_have_one_unit_and_a_minus_sign(measured: AuditRecord) -> None:
+    text = page(measured)
+    assert "\N{MINUS SIGN}71.30 mm" in text
+    assert "\N{MINUS SIGN}71,30 mm" in text
+    assert "2.00 mm" in text
+
+
+def test_where_a_point_lies_on_the_drawing_is_told_in_shares(measured: AuditRecord) -> None:
+    """Of a facade of corners (0, 0) and (38, 10.4) m, as the fixture has it, P1 at (11, 5.2)."""
+    (picture,) = (picture_of(one, 1, measured.findings, np.empty(0, dtype=int)) for one in measured.delivery.drawings)
+    (left, low), (right, high) = picture.extent + measured.delivery.drawings[0].plane.origin[::2]
+    width, height = 100 * (11.0 - left) / (right - left), 100 * (5.2 - low) / (high - low)
+    assert f"{width:.0f} % of the width, {height:.0f} % of the height" in page(measured)
 
 
 def test_each_point_has_its_coordinates_in_the_manner_of_the_language(measured: AuditRecord) -> None:

@@ -21,12 +21,16 @@
 
   // One picture that moves: the view box is the state.
   const picture = (svg) => {
-    const whole = { x: 0, y: 0, w: svg.viewBox.baseVal.width, h: svg.viewBox.baseVal.height };
+    const box = svg.viewBox.baseVal;
+    const whole = { x: box.x, y: box.y, w: box.width, h: box.height };
     const view = { ...whole };
     const bar = svg.querySelector(".bar");
     const cell = Number(svg.dataset.cell);
     const show = () => {
       svg.setAttribute("viewBox", `${view.x} ${view.y} ${view.w} ${view.h}`);
+      const sheet = svg.querySelector(".sheet");
+      sheet.setAttribute("x", view.x);
+      sheet.setAttribute("y", view.y);
       const unit = view.w / (svg.clientWidth || 1000);
       svg.style.setProperty("--unit", unit);
       svg.classList.toggle("near", view.w < whole.w / 6);

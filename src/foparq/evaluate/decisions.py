@@ -11,7 +11,7 @@ from foparq.evaluate.comparable import doubtful
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Reason, because
 from foparq.findings.counts import FeatureCounts, Listed
-from foparq.model.statements import Decision
+from foparq.model.statements import Confirmation, Decision
 from foparq.names import folded, of_kind
 from foparq.profile.elements import CommissionSpec, OmissionSpec
 from foparq.profile.schema import Profile
@@ -62,15 +62,22 @@ def decided(rows: Iterable[Balance], name: str) -> tuple[Reason, ...]:
     return tuple(
         because(
             "features.decided", element=name, label=row.label, counted=one.counted, low=row.counted[0],
-            high=row.counted[1], by=one.by, reason=one.reason,
+            high=row.counted[1], by=one.by, when=dated(one), reason=one.reason,
         )
         for row in rows
         if (one := row.decision) is not None
     )  # fmt: skip
 
 
-def interval(message: str, name: str, rows: Sequence[Balance], said: Mapping[str, object]) -> Reason:
-    """Reason that names what was counted, and the decision that would settle it, to be filled in.
+def dated(one: Decision | Confirmation) -> Reason | str:
+    """The day of a statement, to stand behind a name; nothing where nobody gives one."""
+    return because("statement.date", date=one.date) if one.date else ""
+
+
+def interval(
+    message: str, name: str, evidence: Evidence, rows: Sequence[Balance], said: Mapping[str, object]
+) -> Reason:
+    """Reason that names what was counted, and the one decision that settles it for all elements, to be filled in.
 
     Parameters
     ----------
@@ -82,7 +89,13 @@ def interval(message: str, name: str, rows: Sequence[Balance], said: Mapping[str
         Further fields.
     """
     named = [f"{row.label}: {row.counted[0]}–{row.counted[1]}" for row in rows]
-    return because(message, classes=named[:10], n=len(named), ask=_asked(rows[0], name), **said)
+    asking = evidence.completeness or (name,)
+    readings = tuple(
+        because("reading.counts", label=row.label, low=row.counted[0], high=row.counted[1], listed=row.required)
+        for row in rows[:10]
+    )
+    fields = {"classes": named[:10], "n": len(named), "readings": readings, "elements": list(asking)}
+    return because(message, **fields, ask=_asked(rows[0], asking[-1]), **said)
 
 
 def placed(rows: Iterable[Balance], name: str) -> tuple[Reason, ...]:

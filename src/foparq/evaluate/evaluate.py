@@ -11,7 +11,7 @@ from foparq.evaluate.kinds import kind_of
 from foparq.evaluate.quality import ClassBalance, Element, ElementStatus, QualityReport, because
 from foparq.evaluate.verdict import decide
 from foparq.evaluate.whose import whose
-from foparq.profile.elements import ElementSpec
+from foparq.profile.elements import CommissionSpec, ElementSpec, OmissionSpec
 from foparq.profile.schema import Profile
 from foparq.profile.terms import Terms
 
@@ -40,6 +40,8 @@ def evaluate(profile: Profile, evidence: Evidence, *, terms: Terms | None = None
         Elements in the order of the profile. An element that the class of product does not ask for keeps its value. One
         whose evaluation crashed is undecided, and takes nothing from the others.
     """
+    counting = (one.id for one in profile.elements if isinstance(one, CommissionSpec | OmissionSpec) and one.applicable)
+    evidence = replace(evidence, completeness=tuple(counting))
     elements: list[Element] = []
     log: list[str] = []
     for spec in profile.elements:

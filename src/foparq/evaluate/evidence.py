@@ -34,6 +34,7 @@ class Evidence:
     ties: Ties | None = None  #: what of the tables belongs to the drawings; ``None`` if nobody looked
     faults: int = 0  #: findings that are no notes
     crashed: bool = False  #: something of the program crashed outside the rules
+    completeness: tuple[str, ...] = ()  #: ids of the elements that count features
 
     def files(self, role: str) -> str:
         """Paths of the files of one role, as one text."""

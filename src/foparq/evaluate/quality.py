@@ -175,6 +175,11 @@ class QualityReport:
         return tuple((one, one.residuals) for one in self.elements if one.residuals is not None)
 
     @property
+    def within_blocks(self) -> bool:
+        """Whether a point lies on an item within a block."""
+        return any("/" in row.item for _, residuals in self.measured for row in residuals.rows)
+
+    @property
     def worst(self) -> tuple[Element, Residual] | None:
         """The difference that is greatest against its limit; ``None`` if nothing was measured, or has no limit."""
         rows = [

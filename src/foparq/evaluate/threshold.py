@@ -84,7 +84,7 @@ def judge_rmse(sample: Sample, spec: ReferencedSpec, limit: float) -> Judgement:
     if least >= limit:
         case = "fail" if poor is None and not sample.missing else "fail-all-the-same"
         reason = sample.reason(case, n=found.n, value=value, limit=(limit, "m"), least=(least, "m"))
-        return judged(ElementStatus.FAIL, reason)
+        return judged(ElementStatus.FAIL, reason, *_narrowly(sample, found, spec, limit))
     open_questions = [poor] if poor is not None else []
     if sample.missing:
         open_questions.append(sample.reason("missing", missing=sample.missing, total=len(sample.all), value=value))
@@ -133,6 +133,19 @@ def _remarks(sample: Sample, found: Moments, spec: ReferencedSpec, limit: float)
         return ()
     confidence = (spec.confidence, "1")
     return (sample.reason("upper", n=found.n, upper=(upper, "m"), limit=(limit, "m"), confidence=confidence),)
+
+
+def _narrowly(sample: Sample, found: Moments, spec: ReferencedSpec, limit: float) -> tuple[Reason, ...]:
+    """Which of several RMSE decides, where that of a better survey might have met the limit."""
+    if sample.survey is None or sample.missing:
+        return ()
+    less = rmse_less_reference(found.rmse, sample.survey)
+    if less >= limit:
+        return ()
+    upper = rmse_upper(found.rmse, found.n, confidence=spec.confidence)
+    more = rmse_with_reference(found.rmse, sample.survey)
+    told = {"over": (found.rmse - limit, "m"), "less": (less, "m"), "more": (more, "m"), "upper": (upper, "m")}
+    return (sample.reason("measured", value=(found.rmse, "m"), limit=(limit, "m"), **told),)
 
 
 def with_doubts(judgement: Judgement, tied: Tied, sample: Sample, remarks: tuple[Reason, ...] = ()) -> Judgement:

@@ -3,10 +3,11 @@
 
 from collections.abc import Iterable, Sequence
 
+from foparq.evaluate.decisions import dated
 from foparq.evaluate.diagnosis import diagnosis
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
-from foparq.evaluate.remarks import deciding, remarks_on
+from foparq.evaluate.remarks import basis, deciding, remarks_on
 from foparq.evaluate.scale import scale_doubts
 from foparq.findings.outcome import Status
 from foparq.model.delivery import SourceStatus
@@ -43,18 +44,19 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     beside.append(_confirmed(evidence))
     doubted, remarked = scale_doubts(profile, evidence)
     if doubted:
-        failing = _together(element.why[:1] for element in failed)
+        failing = _together(basis(element) for element in failed)
         return _report(Verdict.UNDECIDED, (*doubted, *doubts), [failing, *beside], elements, evidence)
     if failed:
-        beside = [diagnosis(profile, evidence, elements), doubts, *(element.why[1:] for element in failed), *beside]
-        return _report(Verdict.REJECTED, _together(element.why[:1] for element in failed), beside, elements, evidence)
+        rest = [remarks_on(element, basis(element)) for element in failed]
+        beside = [diagnosis(profile, evidence, elements), doubts, *rest, *beside]
+        return _report(Verdict.REJECTED, _together(map(basis, failed)), beside, elements, evidence)
     if doubts:
         return _report(Verdict.UNDECIDED, doubts, beside, elements, evidence)
     why = [because("verdict.accepted", elements=[element.id for element in required])]
-    why += _together(element.why[:1] for element in required if _tolerated(element))
+    why += _together(basis(element) if _tolerated(element) else basis(element)[1:] for element in required)
     if others := [element.id for element in elements if element not in required and element.value is not None]:
         beside.append((because("verdict.not-required", elements=others),))
-    beside += [remarked, *(element.why[1:] for element in required), _hidden(evidence)]
+    beside += [remarked, *(remarks_on(element, basis(element)) for element in required), _hidden(evidence)]
     return _report(Verdict.ACCEPTED, why, beside, elements, evidence)
 
 
@@ -74,11 +76,18 @@ def _tolerated(element: Element) -> bool:
 
 
 def _confirmed(evidence: Evidence) -> list[Reason]:
-    """What persons confirmed by name."""
-    return [
-        because("verdict.confirmed", what=one.what, value=one.value, by=one.by, reason=one.reason)
+    """What persons confirmed by name, and in which manifest they state it and what they decided."""
+    told = [
+        because("verdict.confirmed", what=one.what, value=one.value, by=one.by, when=dated(one), reason=one.reason)
         for one in evidence.delivery.confirmed
     ]
+    if evidence.delivery.confirmed or evidence.delivery.decisions:
+        told += [
+            because("verdict.signed", file=source.path, sha256=source.sha256)
+            for source in evidence.delivery.sources
+            if source.role == "manifest" and source.sha256
+        ]
+    return told
 
 
 def _hidden(evidence: Evidence) -> list[Reason]:

@@ -32,6 +32,7 @@ class FoundFeatures:
     most: Index  #: (k,) the most features that it may be; 0 for copies
     sheet: Geometries  #: (k,) polygons in the plane of the drawing, metres
     outline: Geometries  #: (k,) the same in coordinates of the file
+    lines: Geometries  #: (k,) what is drawn of it, in the plane of the drawing, metres
 
     def __len__(self) -> int:
         return len(self.item)
@@ -42,7 +43,7 @@ class FoundFeatures:
         text, number = np.empty(0, dtype=object), _left_out()
         return cls(
             feature_class=text, facade=text, drawing=text, layer=text, item=text, block=text, reading=text,
-            most=number, sheet=text, outline=text,
+            most=number, sheet=text, outline=text, lines=text,
         )  # fmt: skip
 
 

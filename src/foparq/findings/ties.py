@@ -10,9 +10,19 @@ from foparq.columns import Flags, Index, Reals, Texts
 from foparq.findings.because import Because
 from foparq.match.causes import Cause
 
+NOBODY = -1  #: the end of a distance is no checkpoint
+
 
 def _untold() -> Reals:
     return np.empty(0)
+
+
+def _placeless() -> Reals:
+    return np.empty((0, 2, 3))
+
+
+def _nowhere() -> Index:
+    return np.empty((0, 2), dtype=np.intp)
 
 
 class Lies(StrEnum):
@@ -66,6 +76,8 @@ class DistanceTies:
     group: Index  #: (n,) rows that repeat one measurement have one number
     longest: float  #: greatest length that a drawing holds, metres; NaN without a drawing
     factor: float = 1.0  #: with which all lengths would be those between the ends: another unit
+    places: Reals = field(default_factory=_placeless)  #: (n, 2, 3) the ends, metres, NaN if unknown; empty: untold
+    at: Index = field(default_factory=_nowhere)  #: (n, 2) row of the checkpoint that the end is, or -1; empty: untold
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

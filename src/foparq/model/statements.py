@@ -13,6 +13,7 @@ class Confirmation:
     by: str
     reason: str
     path: str = ""  #: file it speaks of; ``""``: every file that states the value
+    date: str = ""  #: ISO 8601 day on which it was stated; ``""`` if nobody says
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,3 +26,4 @@ class Decision:
     counted: int
     by: str
     reason: str
+    date: str = ""  #: ISO 8601 day of the decision; ``""`` if nobody says

@@ -22,6 +22,7 @@ EXAMPLES = {
     "class": 'class = "window"',
     "confirmed": "[[confirmed]]",
     "counted": "counted = 12",
+    "date": "date = 2026-11-30",
     "decision": "[[decision]]",
     "element": 'element = "Q5"',
     "kind": 'kind = "omission"',

@@ -2,6 +2,7 @@
 """The delivery manifest ``delivery.toml``, typed. Every section is optional; what is absent is not assessed."""
 
 from collections.abc import Mapping
+from datetime import date, datetime
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
@@ -66,6 +67,18 @@ def _said(text: object) -> str:
 Said = Annotated[str, BeforeValidator(_said)]
 
 
+def _day(given: object) -> str:
+    """A day as TOML writes it, or as text."""
+    if isinstance(given, date) and not isinstance(given, datetime):
+        return given.isoformat()
+    if given == "":
+        return ""
+    return date.fromisoformat(given if isinstance(given, str) else "").isoformat()
+
+
+Day = Annotated[str, BeforeValidator(_day)]
+
+
 class ConfirmedSection(Strict):
     """``[[confirmed]]``: a statement that witnesses contradict, confirmed by a person."""
 
@@ -74,6 +87,7 @@ class ConfirmedSection(Strict):
     by: Said  #: who answers for it
     reason: Said
     path: str = ""  #: file it speaks of; left out: every file that states the value
+    date: Day = ""
 
 
 class DecisionSection(Strict):
@@ -85,6 +99,7 @@ class DecisionSection(Strict):
     counted: int = Field(ge=0, le=10**9, strict=True)
     by: Said  #: who answers for it
     reason: Said
+    date: Day = ""  #: of the decision
 
 
 class Manifest(Strict):

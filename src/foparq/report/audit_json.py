@@ -183,6 +183,7 @@ def _balance(balance: ClassBalance, found: FoundFeatures) -> dict[str, Any]:
         "hidden_layers": list(balance.hidden),
         "decision": None if one is None else {
             "element": one.element, "counted": one.counted, "by": one.by, "reason": one.reason,
+            **({"date": one.date} if one.date else {}),
         },
         "items": [
             {

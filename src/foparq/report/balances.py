@@ -5,13 +5,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from foparq.evaluate.decisions import quoted
-from foparq.evaluate.quality import BalanceState, ClassBalance, ElementStatus, QualityReport
+from foparq.evaluate.quality import BalanceState, ClassBalance, QualityReport
 from foparq.findings.counts import FoundFeatures, Reading
+from foparq.report.sentences import COUNTING, class_word
 from foparq.report.words import Words, printable
 
 _LISTED = 60  #: ids of the list or of the drawing that people are shown
 
-_COUNTING = frozenset({"3", "7"})  #: measures of commission and omission
 #: states in which the numbers of list and drawing can be compared
 COMPARED = frozenset({BalanceState.EVEN, BalanceState.SHORT, BalanceState.OVER, BalanceState.OPEN})
 
@@ -32,6 +32,7 @@ class BalanceRow:
     items: tuple[tuple[str, str], ...]  #: reading, and the items of that reading
     notes: tuple[str, ...]  #: decisions, hidden layers
     decision: str  #: lines to be pasted into the manifest, to be filled in; ``""`` where nothing is open
+    asked: str  #: what to do with them
 
 
 def balance_rows(words: Words, quality: QualityReport) -> tuple[BalanceRow, ...]:
@@ -46,15 +47,19 @@ def balance_note(words: Words, quality: QualityReport) -> str:
         return ""
     if len(counted) == len([one for one in quality.balances if one.state in COMPARED]):
         return words("report.balance.only-counted")
-    return words("report.balance.some-counted", classes=[one.label for one in counted[:10]])
+    return words("report.balance.some-counted", classes=[label_of(words, one) for one in counted[:10]])
 
 
 def _row(words: Words, balance: ClassBalance, quality: QualityReport) -> BalanceRow:
     compared = balance.state in COMPARED
     return BalanceRow(
-        label=printable(balance.label),
+        label=label_of(words, balance),
         state=balance.state.value,
-        word=words(f"report.balance.state.{balance.state.value}"),
+        word=words(
+            f"report.balance.state.{balance.state.value}",
+            missing=_range(words, balance.missing),
+            surplus=_range(words, balance.surplus),
+        ),
         required=words.count(balance.required),
         optional=words.count(balance.optional) if balance.optional else "",
         found=_range(words, balance.found) if compared or balance.state is BalanceState.UNLISTED else "–",
@@ -64,10 +69,22 @@ def _row(words: Words, balance: ClassBalance, quality: QualityReport) -> Balance
         items=_items(words, balance.rows, quality.found),
         notes=_notes(words, balance),
         decision=_decision(words, balance, quality),
+        asked=words("report.balance.decide", elements=_counting(quality)),
     )
 
 
-def _may_differ(balance: ClassBalance) -> bool:
+def label_of(words: Words, balance: ClassBalance) -> str:
+    """Class in the language of the reader, and facade: ``"janela / N"``; safe to show."""
+    name = class_word(words, balance.feature_class)
+    return f"{name} / {printable(balance.facade)}" if balance.facade else name
+
+
+def _counting(quality: QualityReport) -> list[str]:
+    return [element.id for element in quality.elements if element.measure_id in COUNTING]
+
+
+def may_differ(balance: ClassBalance) -> bool:
+    """Whether linework allows several numbers of features, and nobody decided which."""
     return balance.state in COMPARED and balance.decision is None and balance.found[0] < balance.found[1]
 
 
@@ -95,7 +112,8 @@ def _items(words: Words, rows: Sequence[int], found: FoundFeatures) -> tuple[tup
 def _notes(words: Words, balance: ClassBalance) -> tuple[str, ...]:
     notes = []
     if (one := balance.decision) is not None:
-        notes.append(words("report.balance.decided", by=one.by, counted=one.counted, reason=one.reason))
+        by = f"{one.by} ({one.date})" if one.date else one.by
+        notes.append(words("report.balance.decided", by=by, counted=one.counted, reason=one.reason))
     for name, ids in (("absent", balance.absent), ("other", balance.other), ("unsure", balance.unsure)):
         if ids:
             notes.append(words(f"report.balance.{name}", ids=_some(words, ids)))
@@ -106,22 +124,22 @@ def _notes(words: Words, balance: ClassBalance) -> tuple[str, ...]:
 
 def _decision(words: Words, balance: ClassBalance, quality: QualityReport) -> str:
     """Lines of ``delivery.toml``; what a person must write is left empty, and refused as long as it is."""
-    if not _may_differ(balance):
+    if not may_differ(balance):
         return ""
-    of_count = [element for element in quality.elements if element.measure_id in _COUNTING]
-    if not of_count:
+    asking = _counting(quality)
+    if not asking:
         return ""
-    asking = next((one for one in of_count if one.status is ElementStatus.UNDECIDED), of_count[-1])
     low, high = balance.found
     facade = [f"facade = {quoted(balance.facade)}"] if balance.facade else []
     return "\n".join(
         [
             "[[decision]]",
-            f"element = {quoted(asking.id)}",
+            f"element = {quoted(asking[-1])}",
             f"class = {quoted(balance.feature_class)}",
             *facade,
             f"counted =   # {words('report.balance.between', low=low, high=high)}",
             f'by = ""   # {words("report.balance.by")}',
             f'reason = ""   # {words("report.balance.reason")}',
+            f"# date = 2026-11-30   # {words('report.balance.date')}",
         ]
     )

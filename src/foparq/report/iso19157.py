@@ -17,7 +17,7 @@ from foparq.evaluate.measures import measures
 from foparq.evaluate.quality import Element, ElementStatus, Reason, Residual, Verdict
 from foparq.report.record import AuditRecord
 from foparq.report.residuals import standing_words
-from foparq.report.sentences import parameter_name, reason_sentence, specification
+from foparq.report.sentences import detail_name, parameter_name, reason_sentence, specification
 from foparq.report.words import Words, printable
 
 _ISO = "http://standards.iso.org/iso/"
@@ -165,7 +165,9 @@ class _Report:
             for name, value, unit in element.parameters
         ]
         for name, found, out_of in element.details:
-            parts.append(f"{printable(name)}: {self.words.count(found)} / {self.words.count(out_of)}")
+            parts.append(
+                f"{detail_name(self.words, element, name)}: {self.words.count(found)} / {self.words.count(out_of)}"
+            )
         if element.residuals is not None:
             parts += [self._residual(row) for row in element.residuals.rows[:_LISTED]]
         return "; ".join(parts)

@@ -2,6 +2,7 @@
 """Sentences that every report shares: findings, reasons, outcomes and files in the language of the reader."""
 
 import json
+import re
 from collections.abc import Iterable, Iterator
 from functools import cache
 from string import Formatter
@@ -16,6 +17,7 @@ from foparq.findings.outcome import Outcome, SetAside
 from foparq.findings.table import Findings
 from foparq.model.delivery import Source
 from foparq.model.drawing import Repair, Skipped
+from foparq.names import of_kind
 from foparq.report.record import AuditRecord
 from foparq.report.rule_texts import has_part
 from foparq.report.words import Words, printable
@@ -133,8 +135,42 @@ def _manuals() -> dict[str, str]:
 
 def reason_sentence(words: Words, reason: Reason) -> str:
     """Sentence of a reason of the evaluation: ``evaluate.ID`` with its fields."""
-    fields = {name: _told(words, value) for name, value in reason.fields}
+    fields = {name: _labels(words, value) if name in _LABELS else _told(words, value) for name, value in reason.fields}
     return words(f"evaluate.{reason.message}", **fields)
+
+
+COUNTING = frozenset({"3", "7"})  #: measures of commission and omission
+#: fields of reasons that hold a class, its facade, and what was counted: ``"window / N: 20–40"``
+_LABELS = frozenset({"label", "classes"})
+_LABEL = re.compile(r"(?P<name>.+?)(?: / (?P<facade>.+?))?(?P<count>: \d+–\d+)?")
+
+
+def class_word(words: Words, name: str) -> str:
+    """Class of features in the language of the reader where the catalogue has it, else as it is spelt; safe to show."""
+    return words.find(f"report.class.{of_kind(name)}") or printable(name)
+
+
+def _labels(words: Words, value: object) -> object:
+    return (
+        [label_text(words, str(part)) for part in value]
+        if isinstance(value, list | tuple)
+        else label_text(words, str(value))
+    )
+
+
+def label_text(words: Words, label: str) -> str:
+    """Class and facade in words, safe to show: ``"window / N: 20–40"`` as ``"janela (fachada N): 20–40"``."""
+    found = _LABEL.fullmatch(label)
+    if found is None:
+        return printable(label)
+    name, count = class_word(words, found["name"]), found["count"] or ""
+    told = words("report.label.facade", name=name, facade=found["facade"]) if found["facade"] else name
+    return f"{told}{count}"
+
+
+def detail_name(words: Words, element: Element, name: str) -> str:
+    """What a detail of an element counts: a class on a facade where features are counted, else a rule."""
+    return label_text(words, name) if element.measure_id in COUNTING else printable(name)
 
 
 def _told(words: Words, value: object) -> object:

@@ -9,7 +9,7 @@ domain ``rules``, in one file a rule under ``rules/texts``. A message is named `
 import gettext
 import math
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 
 from foparq.errors import FoparqError
@@ -27,6 +27,7 @@ _LADDERS = {
     "items": ((float("inf"), "", 1.0, 0),),
     "rad": ((float("inf"), "°", 180 / math.pi, 1),),
 }
+MINUS = "\N{MINUS SIGN}"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -87,6 +88,7 @@ class Words:
         if value != value:  # noqa: PLR0124 - not a number
             return "–"
         text = f"{value:,.{decimals}f}"
+        text = text.replace("-", MINUS if text.strip("-0.") else "")
         if self.language == "pt-BR":
             text = text.translate(str.maketrans(",.", ".,"))
         return text
@@ -104,11 +106,19 @@ class Words:
         name, factor, decimals = next((row[1:] for row in ladder if abs(value) < row[0]), ladder[-1][1:])
         if not unit and 0.0 < abs(value) < 0.5 * 10.0**-decimals:
             digit, power = f"{value:.0e}".split("e")
+            digit = digit.replace("-", MINUS)
             return f"{digit} × 10{str(int(power)).translate(_RAISED)}"
         text = self.number(value * factor, decimals)
         if decimals:
             text = text.rstrip("0").rstrip(".,")
         return f"{text} {name}".rstrip()
+
+    def column(self, values: Sequence[float]) -> list[str]:
+        """Lengths of one column of a table, metres, in the unit of the greatest and with as many decimals each."""
+        ladder = _LADDERS["m"]
+        greatest = max(map(abs, values), default=0.0)
+        name, factor, decimals = next((row[1:] for row in ladder if greatest < row[0]), ladder[-1][1:])
+        return [f"{self.number(value * factor, decimals)} {name}" for value in values]
 
     def _catalogue(self, domain: str) -> gettext.NullTranslations:
         if domain not in self._catalogues:

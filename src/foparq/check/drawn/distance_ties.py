@@ -9,7 +9,7 @@ import numpy as np
 
 from foparq.check.drawn.ground import Ground
 from foparq.columns import Coordinates, Flags, Index, Reals
-from foparq.findings.ties import DistanceTies, Ends, Lies, PointTies
+from foparq.findings.ties import NOBODY, DistanceTies, Ends, Lies, PointTies
 from foparq.match.linework import NOTHING
 from foparq.match.repeats import repeats
 from foparq.model.tables import Checkpoints, Distances
@@ -26,6 +26,7 @@ class _Places(NamedTuple):
     known: Flags  # (n, 2) the end is a point of a drawing
     absent: Flags  # (n, 2) the end has a place, or the id of a checkpoint, that no drawing has
     flat: int  # axis without depth, or -1
+    at: Index  # (n, 2) row of the checkpoint that the end is, or -1
 
 
 def tie_distances(
@@ -74,7 +75,7 @@ def tie_distances(
     ).astype(object)  # fmt: skip
     return DistanceTies(
         ends=told, between=between, delivered=delivered, group=_groups(distances, ends, both, tie),
-        longest=longest, factor=_factor(between, delivered, told == Ends.OTHER_LENGTH),
+        longest=longest, factor=_factor(between, delivered, told == Ends.OTHER_LENGTH), places=ends.places, at=ends.at,
     )  # fmt: skip
 
 
@@ -85,6 +86,7 @@ def _ends(
     places = distances.places.copy()
     given = np.isfinite(places).sum(axis=2) > 1  # a depth may be left out
     known, absent = np.zeros((n, 2), dtype=bool), np.zeros((n, 2), dtype=bool)
+    at = np.full((n, 2), NOBODY, dtype=np.intp)
     for end in range(2):
         rows = np.flatnonzero(given[:, end])
         within = np.full(len(rows), tie + distances.printed * np.sqrt(3))
@@ -93,22 +95,43 @@ def _ends(
             known[rows, end] |= ground.marked(places[rows, end], within)
     absent = given & ~known
     if points is not None and ties is not None:
-        row_of = {folded(str(name)): row for row, name in enumerate(points.id)}
-        for end, names in enumerate((distances.start, distances.end)):
-            for row, name in enumerate(names):
-                at = row_of.get(folded(str(name)))
-                if at is None or given[row, end]:
-                    continue
-                places[row, end] = ties.delivered[at]
-                known[row, end] = ties.lies[at] not in {Lies.ABSENT, Lies.UNTOLD}
-                absent[row, end] = ties.lies[at] == Lies.ABSENT
+        at = _named_points(distances, points, given)
+        named = at != NOBODY
+        places[named] = ties.delivered[at[named]]
+        known[named] = ~np.isin(ties.lies[at[named]], [Lies.ABSENT, Lies.UNTOLD])
+        absent[named] = ties.lies[at[named]] == Lies.ABSENT
     for end, names in enumerate((distances.start, distances.end)):
         for row in np.flatnonzero(~(given | known | absent)[:, end]).tolist():
             borne = [place for one in grounds if (place := one.bearing(str(names[row]))) is not None]
             if len(borne) == 1:
                 places[row, end], known[row, end] = borne[0], True
     flat = next((ground.depth_axis for ground in grounds if not ground.deep), -1)
-    return _Places(places, known, absent, flat)
+    if ties is not None:
+        at = np.where(at == NOBODY, _standing_at(places, ties.delivered, flat, tie), at)
+    return _Places(places, known, absent, flat, at)
+
+
+def _named_points(distances: Distances, points: Checkpoints, given: Flags) -> Index:
+    """(n, 2) the checkpoint whose id an end without a place of its own bears, or -1."""
+    row_of = {folded(str(name)): row for row, name in enumerate(points.id)}
+    ends = zip(distances.start, distances.end, strict=True)
+    named = [[row_of.get(folded(str(name)), NOBODY) for name in pair] for pair in ends]
+    return np.where(given, NOBODY, np.array(named, dtype=np.intp).reshape(-1, 2))
+
+
+def _standing_at(places: Coordinates, points: Coordinates, flat: int, tie: float) -> Index:
+    """(n, 2) the one checkpoint in whose place an end lies, or -1; the depth of a flat drawing tells nothing."""
+    from scipy.spatial import KDTree  # noqa: PLC0415 - slow to load; few deliveries need it
+
+    axes = [axis for axis in range(3) if axis != flat]
+    ends = places.reshape(-1, 3)[:, axes]
+    whole, there = (np.flatnonzero(np.isfinite(one).all(axis=1)) for one in (ends, points[:, axes]))
+    at = np.full(len(ends), NOBODY, dtype=np.intp)
+    if len(whole) and len(there):
+        gap, row = KDTree(points[there][:, axes]).query(ends[whole], k=2, distance_upper_bound=tie)
+        only = np.isfinite(gap[:, 0]) & ~np.isfinite(gap[:, 1])
+        at[whole[only]] = there[row[only, 0]]
+    return at.reshape(-1, 2)
 
 
 def _groups(distances: Distances, ends: _Places, both: Flags, tie: float) -> Index:

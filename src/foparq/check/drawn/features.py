@@ -38,6 +38,7 @@ class _Outline(NamedTuple):
     most: int
     sheet: shapely.Geometry
     outline: shapely.Geometry
+    lines: shapely.Geometry
 
 
 @dataclass(slots=True)
@@ -133,6 +134,7 @@ def _found(totals: _Totals) -> FoundFeatures:
         item=column(row.item for row in rows), block=column(row.block for row in rows),
         reading=column(row.reading for row in rows), most=np.array([row.most for row in rows], dtype=np.intp),
         sheet=column(row.sheet for row in rows), outline=column(row.outline for row in rows),
+        lines=column(row.lines for row in rows),
     )  # fmt: skip
 
 
@@ -241,6 +243,6 @@ def _outlines(
     items = drawing.items.item[rows[read.first]]
     return [
         _Outline(key, drawing.path, str(items[n]), places[row].layer, places[row].block, str(read.reading[n]),
-                 int(read.most[n]), sheet[n], outline[n])
+                 int(read.most[n]), sheet[n], outline[n], read.lines[n])
         for n, row in enumerate(read.first.tolist())
     ]  # fmt: skip

@@ -44,6 +44,7 @@ class Readings:
     reading: Texts  #: (k,) value of :class:`Reading`
     most: Index  #: (k,) the most features that it may be; 0 for copies
     pieces: Index  #: (k,) the same, blocks that may hold several being opened
+    lines: Geometries  #: (k,) collections of what each is made of
 
     @property
     def fewest(self) -> int:
@@ -91,7 +92,10 @@ def read_features(flat: Geometries, places: Sequence[Place], *, gap: float) -> R
     for number in (most, pieces):
         np.maximum.at(number, lead, number.copy())
         number[~own] = 0
-    return Readings(hulls[seen], first[seen], reading[seen], most[seen], pieces[seen])
+    made: Geometries = np.full(len(hulls), None, dtype=object)
+    order = np.argsort(feature, kind="stable")
+    shapely.geometrycollections(flat[order], indices=feature[order], out=made)
+    return Readings(hulls[seen], first[seen], reading[seen], most[seen], pieces[seen], made[seen])
 
 
 def _parts(hulls: Geometries, loose: Flags, gap: float) -> Flags:

@@ -13,6 +13,7 @@ from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.residuals import naming_worst, point_residuals
 from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters, with_doubts
 from foparq.evaluate.tied import resolution_of, tied_points, unchecked
+from foparq.evaluate.witnessed import with_distances
 from foparq.profile.elements import AXES, AbsoluteSpec
 
 
@@ -26,7 +27,7 @@ def absolute(spec: AbsoluteSpec, evidence: Evidence) -> tuple[Element, ...]:
         ``Q1-X``, ``Q1-Y``, ``Q1-Z``. Points that are not in the drawing, or repeat the survey too well, leave it
         undecided; else :func:`foparq.evaluate.threshold.judge_rmse` has the order of decisions.
     """
-    return tuple(_axis(spec, evidence, axis) for axis in range(len(AXES)))
+    return with_distances([_axis(spec, evidence, axis) for axis in range(len(AXES))], evidence)
 
 
 def _axis(spec: AbsoluteSpec, evidence: Evidence, axis: int) -> Element:

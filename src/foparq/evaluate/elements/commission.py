@@ -90,7 +90,7 @@ def _judge(spec: CommissionSpec, evidence: Evidence, every: tuple[Balance, ...],
     several = []
     if _exceeds(most := sum(row.surplus_most for row in known), required, limit):
         unclear = [row for row in known if row.surplus_most > row.surplus]
-        several.append(interval("commission.interval", name, unclear, {"most": most, **fields}))
+        several.append(interval("commission.interval", name, evidence, unclear, {"most": most, **fields}))
     doubts = (*several, *gaps, *unseen(evidence, name), *uncounted(evidence, name))
     if doubts:
         return judged(ElementStatus.UNDECIDED, *doubts)

@@ -106,20 +106,21 @@ def _judge(spec: OmissionSpec, evidence: Evidence, every: tuple[Balance, ...], l
         certain = sum(row.missing_least for row in known if not row.hidden)
         failed = certain / total > limit
         status = ElementStatus.FAIL if failed else ElementStatus.UNDECIDED
-        why = (because("omission.fail", **fields),) if failed else _open(known, fields)
+        why = (because("omission.fail", **fields),) if failed else _open(known, evidence, fields)
         return judged(status, *why, *gaps, *remarks)
     if gaps:
         return judged(ElementStatus.UNDECIDED, *gaps, *remarks)
     return judged(ElementStatus.PASS, because("omission.pass", **fields), *remarks)
 
 
-def _open(known: list[Balance], fields: dict[str, object]) -> tuple[Reason, ...]:
+def _open(known: list[Balance], evidence: Evidence, fields: dict[str, object]) -> tuple[Reason, ...]:
     """Why features that were not counted may be drawn all the same."""
     short = [row for row in known if row.missing]
     why = []
     if several := [row for row in short if row.missing_least < row.missing]:
         least = sum(row.missing_least for row in known)
-        why.append(interval("omission.interval", str(fields["element"]), several, {"least": least, **fields}))
+        told = {"least": least, **fields}
+        why.append(interval("omission.interval", str(fields["element"]), evidence, several, told))
     if layers := sorted({layer for row in short for layer in row.hidden}):
         why.append(because("omission.hidden-layers", layers=layers[:10], n=len(layers), **fields))
     return tuple(why)

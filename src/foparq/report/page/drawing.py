@@ -3,7 +3,7 @@
 
 import base64
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import shapely
@@ -78,6 +78,7 @@ class Picture:
     hidden: int  #: hidden items of model space
     paper: int  #: items of paper space: not drawn
     outlines: tuple[OutlinePath, ...] = ()  #: of features, by class
+    extent: Reals = field(default_factory=lambda: np.zeros((2, 2)))  #: lower and upper corner of visible linework
 
     def cells(self, points: Reals) -> Reals:
         """Points (n, 2) of the sheet, metres, in cells of the picture."""
@@ -140,6 +141,7 @@ def picture_of(
         bands=path(strokes_of(_of_dimension(faults, 1), None, 1.0)),
         areas=path(strokes_of(_of_dimension(faults, 2), None, 1.0)),
         layers=_layer_counts(drawing, findings),
+        extent=_extent(linework),
         outside=strays + beyond(exact, corner, size),
         hidden=int(np.sum(~visible & ~drawing.items.paper)),
         paper=int(np.sum(drawing.items.paper)),
@@ -147,6 +149,12 @@ def picture_of(
         if quality
         else (),
     )
+
+
+def _extent(strokes: Strokes) -> Reals:
+    """Lower and upper corner (2, 2), metres; equal ones of nothing."""
+    points = strokes.points
+    return np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 2))
 
 
 def marks_at(sheet: Geometries) -> Reals:

@@ -164,7 +164,9 @@ def group_view(words: Words, listing: Listing, group: Group, suffix: str) -> Gro
     held = {name for name in ("place", "layer", "handle", "other") if any(getattr(row, name) for row in rows)}
     if many_files:
         held.add("source")
-    if any(row.size for row in rows):
+    # Where the size of all is the tolerance itself, nothing was measured: no end of a line is near.
+    measured = np.any(listing.findings.size[group.shown] != listing.findings.limit[group.shown])
+    if measured and any(row.size for row in rows):
         held.add("size")
     found = group.found
     unlisted = found - len(rows)
@@ -178,7 +180,7 @@ def group_view(words: Words, listing: Listing, group: Group, suffix: str) -> Gro
         mend=words(f"rules.{group.rule}.mend"),
         found=words.count(found),
         counted=found,
-        tallies=tuple(tally(words, run) for run in group.outcomes if run.found),
+        tallies=tuple(tally(words, run, note=group.severity == Severity.NOTE) for run in group.outcomes if run.found),
         tolerances="; ".join(dict.fromkeys(parameters_sentence(words, run.parameters) for run in group.outcomes)),
         preview=any(run.preview for run in group.outcomes),
         rows=rows,
@@ -189,10 +191,12 @@ def group_view(words: Words, listing: Listing, group: Group, suffix: str) -> Gro
     )
 
 
-def tally(words: Words, run: Outcome) -> str:
+def tally(words: Words, run: Outcome, *, note: bool = False) -> str:
     """Findings over items checked, of one run: ``"fachada.dxf: 12 on 10 of 976 items (1.02 %)"``."""
     return words(
-        "report.findings.tally" if run.checked and len(run.faulty) else "report.findings.tally-file",
+        f"report.findings.tally{'-note' if note else ''}"
+        if run.checked and len(run.faulty)
+        else "report.findings.tally-file",
         scope=outcome_scope(words, run),
         found=words.count(run.found),
         faulty=words.count(len(run.faulty)),

@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 
 from foparq.findings.table import Severity
-from foparq.report.page.completeness import CompletenessView, completeness_view
+from foparq.model.items import Role
+from foparq.model.plane import Plane
+from foparq.report.page.completeness import CompletenessView, FeatureNumber, completeness_view, feature_numbers
 from foparq.report.page.coverage import LookedAt, coverage
 from foparq.report.page.drawing import GROUPS, Picture, picture_of
 from foparq.report.page.findings import GroupView, Listing, group_view, listing_of, shown_rows
@@ -19,8 +21,11 @@ from foparq.report.page.marks import MarkView, mark_views
 from foparq.report.page.residuals import ResidualsView, Vector, residual_views, vectors
 from foparq.report.page.tables import ElementView, Headline, InputView, element_views, headline, input_views
 from foparq.report.record import AuditRecord
+from foparq.report.sentences import class_word
 from foparq.report.templates import environment, shipped_text
-from foparq.report.words import LANGUAGES, Words, printable
+from foparq.report.words import LANGUAGES, MINUS, Words, printable
+
+_ALONG = 1e-6  #: from one: a direction is that of an axis
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,6 +38,7 @@ class FigureView:
     notes: tuple[str, ...]
     marks: tuple[MarkView, ...]
     vectors: tuple[Vector, ...]  #: differences of the checkpoints, enlarged
+    numbers: tuple[FeatureNumber, ...]  #: of features that a person has to count
     bar: tuple[float, str]  #: length of the scale bar as a share of the width, and its lettering
 
 
@@ -93,6 +99,7 @@ def page(record: AuditRecord) -> str:
             style_hash=_hash("page.css"),
             script_hash=_hash("page.js"),
             printable=printable,
+            class_word=class_word,
         )
     )
 
@@ -112,7 +119,7 @@ def _view(record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], 
         suffix=suffix,
         headline=headline(words, record, listing.groups, suffix),
         elements=element_views(words, record),
-        residuals=residual_views(words, record),
+        residuals=residual_views(words, record, pictures),
         completeness=completeness_view(words, record.quality),
         figures=tuple(_figure(words, record, listing, picture, suffix) for picture in pictures),
         faults=tuple(view(group) for group in listing.groups if group.severity != Severity.NOTE),
@@ -139,11 +146,16 @@ def _figure(words: Words, record: AuditRecord, listing: Listing, picture: Pictur
         true = bar[0] * picture.width * picture.quantum / factor
         told = words("report.residuals.vectors", factor=words.count(factor), length=bar[1], true=(true, "m"))
         notes = (*notes, told)
+    notes = (*notes, facing(words, drawing.plane))
+    numbers = feature_numbers(drawing.path, record.quality, picture.cells)
+    if numbers:
+        notes = (*notes, words("report.drawing.numbers"))
     return FigureView(
         picture=picture,
         file=printable(drawing.path),
         marks=marks,
         vectors=arrows,
+        numbers=numbers,
         bar=bar,
         about=words("report.drawing.about-facade" if drawing.facade else "report.drawing.about", **about),
         notes=notes,
@@ -154,7 +166,7 @@ def _notes(words: Words, listing: Listing, picture: Picture, marked: int) -> tup
     listed = [
         row for group in listing.groups for row in group.shown if listing.findings.source[row] == picture.drawing.path
     ]
-    notes = [words(f"report.drawing.{picture.form}")]
+    notes = [words(f"report.drawing.{picture.form}"), *_drawn_otherwise(words, picture)]
     if picture.culprits:
         notes.append(words("report.drawing.culprits"))
     if picture.bands or picture.areas:
@@ -172,6 +184,36 @@ def _notes(words: Words, listing: Listing, picture: Picture, marked: int) -> tup
     if any(group.found > len(group.shown) for group in listing.groups):
         notes.append(words("report.drawing.unlisted"))
     return tuple(notes)
+
+
+def _drawn_otherwise(words: Words, picture: Picture) -> list[str]:
+    """What rules look at, and what of model space stands as a point only, without its lettering."""
+    items = picture.drawing.items
+    shown = ~items.paper
+    checked = int(np.count_nonzero(shown & np.isin(items.role, [Role.LINE, Role.AREA])))
+    lettering = int(np.count_nonzero(shown & (items.role == Role.ANNOTATION)))
+    others = int(np.count_nonzero(shown)) - checked - lettering
+    told = [
+        words("report.drawing.kinds", checked=words.count(checked), lettering=words.count(lettering), others=others)
+    ]
+    if lettering:
+        told.append(words("report.drawing.lettering"))
+    return told
+
+
+def facing(words: Words, plane: Plane) -> str:
+    """Which axes of the file go right and up, and which way one looks: ``"x to the right, z up; towards y"``."""
+    right, up, back = plane.frame.tolist()
+    told = {"right": _axis(words, right), "up": _axis(words, up), "away": _axis(words, [-part for part in back])}
+    return words("report.drawing.facing", **told)
+
+
+def _axis(words: Words, along: list[float]) -> str:
+    """Direction by the axis it runs along, else its parts."""
+    for name, part in zip("xyz", along, strict=True):
+        if abs(abs(part) - 1.0) < _ALONG:
+            return f"{'+' if part > 0 else MINUS}{name}"
+    return "({})".format("; ".join(words.number(part, 2) for part in along))
 
 
 def _bar(words: Words, picture: Picture) -> tuple[float, str]:

@@ -2,6 +2,7 @@
 """Measured differences on the page: tables with a bar a point, normal plots, and vectors on the drawing."""
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,7 @@ from foparq.report.sentences import element_title
 from foparq.report.words import Words, printable
 
 ROWS = 200  #: differences of one element that the page lists
+_LABELLED = 40  #: points of one drawing up to which all bear their ids
 _HALF = 100  #: of a bar's width, and of the width of a normal plot
 _LONGEST = 1 / 12  #: of the picture's width: the longest vector
 
@@ -64,22 +66,32 @@ class Vector:
     dx: float
     dy: float
     title: str
-    label: str  #: id of an outlier, else ``""``
+    turn: float  #: direction of the arrow, degrees clockwise from the right
+    label: str  #: id; ``""`` where there are so many that only outliers bear theirs
     mark: str
 
 
-def residual_views(words: Words, record: AuditRecord) -> tuple[ResidualsView, ...]:
-    """Differences of every element that measures some."""
-    return tuple(_view(words, element, residuals) for element, residuals in record.quality.measured if residuals.rows)
+def residual_views(words: Words, record: AuditRecord, pictures: Sequence[Picture]) -> tuple[ResidualsView, ...]:
+    """Differences of every element that measures some.
+
+    Parameters
+    ----------
+    pictures : sequence of Picture
+        They know where on the drawing a point lies.
+    """
+    by_path = {picture.drawing.path: picture for picture in pictures}
+    return tuple(
+        _view(words, element, residuals, by_path) for element, residuals in record.quality.measured if residuals.rows
+    )
 
 
-def _view(words: Words, element: Element, residuals: Residuals) -> ResidualsView:
+def _view(words: Words, element: Element, residuals: Residuals, pictures: Mapping[str, Picture]) -> ResidualsView:
     largest = max((abs(row.difference or 0.0) for row in residuals.rows), default=0.0) or 1.0
     full = max(largest, element.limit) if element.limit and element.limit < 3 * largest else largest
     left_out = len(residuals.rows) - ROWS
     return ResidualsView(
         id=printable(element.id), title=element_title(words, element), summary=_summary(words, element, residuals),
-        rows=tuple(_row(words, row, full) for row in residuals.rows[:ROWS]), dots=_dots(words, residuals),
+        rows=_rows(words, residuals.rows[:ROWS], full, pictures), dots=_dots(words, residuals),
         limit=_HALF * element.limit / full if element.limit and element.limit <= full else None,
         more=words("report.residuals.more", count=words.count(left_out)) if left_out > 0 else "",
     )  # fmt: skip
@@ -103,20 +115,32 @@ def _mark(row: Residual) -> str:
     return "outlier" if row.outlier else "" if row.standing is Standing.COUNTED else "aside"
 
 
-def _row(words: Words, row: Residual, full: float) -> Row:
+def _rows(words: Words, rows: Sequence[Residual], full: float, pictures: Mapping[str, Picture]) -> tuple[Row, ...]:
+    told = words.column([row.difference or 0.0 for row in rows])
+    return tuple(_row(words, row, text, full, pictures) for row, text in zip(rows, told, strict=True))
+
+
+def _row(words: Words, row: Residual, told: str, full: float, pictures: Mapping[str, Picture]) -> Row:
     length = _HALF * (row.difference or 0.0) / full
     return Row(
-        id=printable(row.id), difference=_metres(words, row.difference), standing=standing_words(words, row),
+        id=printable(row.id), difference="–" if row.difference is None else told, standing=standing_words(words, row),
         normalised="–" if row.normalised is None else words.number(row.normalised, 2), mark=_mark(row),
         bar=(round(min(0.0, length), 2), round(abs(length), 2)), where=tied_words(words, row),
-        place=_place(words, row),
+        place=_place(words, row, pictures.get(row.drawing)),
     )  # fmt: skip
 
 
-def _place(words: Words, row: Residual) -> str:
+def _place(words: Words, row: Residual, picture: Picture | None) -> str:
+    """Delivered coordinates, and where on the drawing that is."""
     if row.place is None:
         return ""
-    return words("report.residuals.place", **dict(zip("xyz", map(float, row.place), strict=True)))
+    told = words("report.residuals.place", **dict(zip("xyz", map(float, row.place), strict=True)))
+    metres = None if picture is None else picture.drawing.unit.metres
+    if picture is None or metres is None or not (picture.extent[1] > picture.extent[0]).all():
+        return told
+    spot = picture.drawing.plane.project(np.array([row.place]) / metres, metres)[0, :2]
+    right, up = (spot - picture.extent[0]) / (picture.extent[1] - picture.extent[0])
+    return words("report.residuals.share", place=told, right=words.count(100 * right), up=words.count(100 * up))
 
 
 def _dots(words: Words, residuals: Residuals) -> tuple[Dot, ...]:
@@ -149,7 +173,8 @@ def vectors(words: Words, record: AuditRecord, picture: Picture) -> tuple[tuple[
     return tuple(
         Vector(
             x=float(x), y=float(y), dx=round(float(dx)), dy=round(float(dy)), title=_told(words, point),
-            label=printable(point.id) if point.outlier else "",
+            turn=round(math.degrees(math.atan2(dy, dx)), 1),
+            label=printable(point.id) if point.outlier or len(points) <= _LABELLED else "",
             mark="outlier" if point.outlier else "" if point.counted else "aside",
         )
         for point, (x, y), (dx, dy) in zip(points, spots, moved, strict=True)

@@ -10,8 +10,10 @@ from foparq.findings.outcome import Status
 from foparq.findings.table import Severity
 from foparq.model.delivery import Source, SourceStatus
 from foparq.report.page.findings import Group
+from foparq.report.page.mending import Cause, causes_of, tasks_of
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import (
+    detail_name,
     element_kind,
     element_title,
     parameter_name,
@@ -27,18 +29,7 @@ OPEN = frozenset({ElementStatus.UNDECIDED, ElementStatus.NOT_ASSESSED})
 TAKEN_IN = frozenset({SourceStatus.READ, SourceStatus.RECOVERED})
 _COUNTED = frozenset({"drawing", "checkpoints", "distances", "features"})  #: roles whose items or rows are told
 _OTHER_RATES = frozenset({"rate-least", "rate-most"})  #: of completeness, by the other reading of the drawings
-_FIRST = 5  #: things to mend that the headline names
 _FILES_NAMED = 3
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Cause:
-    """One thing to mend, and what to do about it."""
-
-    anchor: str
-    title: str
-    found: str  #: how many; ``""`` of an element
-    mend: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,6 +43,7 @@ class Headline:
     remarks: tuple[str, ...]
     gaps: tuple[str, ...]  #: what was not checked, in a few words
     causes: tuple[Cause, ...]
+    tasks: tuple[Cause, ...]  #: of whoever decides
     facts: tuple[tuple[str, str], ...]
 
 
@@ -98,41 +90,10 @@ def headline(words: Words, record: AuditRecord, groups: Sequence[Group], suffix:
         why=tuple(reason_sentence(words, reason) for reason in record.quality.why[_told_above(record) :]),
         remarks=tuple(reason_sentence(words, reason) for reason in record.quality.remarks),
         gaps=_gaps(words, record),
-        causes=_causes(words, record, faults, suffix),
+        causes=causes_of(words, record, faults, suffix),
+        tasks=tasks_of(words, record, suffix),
         facts=_facts(words, record),
     )
-
-
-def _causes(words: Words, record: AuditRecord, faults: Sequence[Group], suffix: str) -> tuple[Cause, ...]:
-    """What to mend first, by what it does to the verdict.
-
-    Failing required elements come first, each as the faults that it counts or as its own first reason; then those that
-    leave it open; then all other faults, the most frequent first.
-    """
-    left = {group.name: group for group in sorted(faults, key=lambda group: -group.found)}
-    causes: list[Cause] = []
-    told: set[tuple[str, str]] = set()  # axes of one element are one thing to mend
-    required = [element for element in record.quality.elements if element.required and not record.loose]
-    for status in (ElementStatus.FAIL, ElementStatus.UNDECIDED, ElementStatus.NOT_ASSESSED):
-        for element in (one for one in required if one.status is status):
-            counted = [name for name in left if name in {name for name, _, _ in element.details}]
-            causes += [_fault(words, left.pop(name), suffix) for name in counted]
-            kind = (element.element, element.measure_id)
-            if not counted and element.why and kind not in told:
-                told_above = element.why[0] in record.quality.why
-                mend = "" if told_above else reason_sentence(words, element.why[0])
-                causes.append(
-                    Cause(anchor=f"e-{element.id}{suffix}", title=element_title(words, element), found="", mend=mend)
-                )
-                told.add(kind)
-    return tuple([*causes, *(_fault(words, group, suffix) for group in left.values())][:_FIRST])
-
-
-def _fault(words: Words, group: Group, suffix: str) -> Cause:
-    return Cause(
-        anchor=f"r-{group.rule}{suffix}", title=words(f"rules.{group.rule}.title"), found=words.count(group.found),
-        mend=words(f"rules.{group.rule}.mend"),
-    )  # fmt: skip
 
 
 def _told_above(record: AuditRecord) -> int:
@@ -171,10 +132,12 @@ def _loose(words: Words, record: AuditRecord, faults: Sequence[Group]) -> tuple[
 
 
 def _gaps(words: Words, record: AuditRecord) -> tuple[str, ...]:
+    left_open = [] if record.loose else [element for element in record.quality.elements if element.status in OPEN]
     numbers = {
         "files": sum(source.status not in TAKEN_IN for source in record.delivery.sources),
         # Loose files are not asked for what only a delivery holds.
-        "elements": 0 if record.loose else sum(element.status in OPEN for element in record.quality.elements),
+        "elements": sum(element.required for element in left_open),
+        "informative": sum(not element.required for element in left_open),
         # A rule that had nothing to look at left nothing unjudged.
         "rules": len({run.rule for run in record.outcomes if run.because.opens}),
         "things": sum(part.count for source in record.delivery.sources for part in source.skipped),
@@ -244,7 +207,7 @@ def _element_view(words: Words, element: Element) -> ElementView:
             *parameters,
             (words("report.elements.method"), words(f"report.method.{element.method}")),
         ),
-        details=tuple((printable(name), _share(words, found, out_of)) for name, found, out_of in element.details),
+        details=tuple((detail_name(words, element, name), _share(words, *of)) for name, *of in element.details),
     )
 
 
