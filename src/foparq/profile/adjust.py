@@ -6,10 +6,12 @@ from collections.abc import Collection, Sequence
 from pydantic import ValidationError
 
 from foparq.errors import QuantityError, UsageError
+from foparq.names import nearest
 from foparq.profile.schema import CheckSpec, Profile, ReadingSpec
 from foparq.units import parse_any_quantity
 
 _EXAMPLE = "undershoot.reach=10mm"
+_SHOWN = 8  #: tolerances that a message names, nearest first
 
 
 def choose(profile: Profile, names: Collection[str], helpers: Collection[str] = ()) -> Profile:
@@ -72,7 +74,10 @@ def _with_setting(profile: Profile, setting: str) -> Profile:
             checks.append(spec)
     if not changed:
         known = sorted(f"{spec.rule}.{tolerance}" for spec in profile.checks for tolerance in spec.tolerances)
-        raise UsageError("usage.setting-unknown", value=target.strip(), known=", ".join(known), example=_EXAMPLE)
+        near = nearest(target.strip(), known)
+        shown = ", ".join([*near[:_SHOWN], *([f"+{len(near) - _SHOWN}"] if len(near) > _SHOWN else [])])
+        example = f"{near[0]}={_EXAMPLE.partition('=')[2]}" if near else _EXAMPLE
+        raise UsageError("usage.setting-unknown", value=target.strip(), known=shown, example=example)
     return profile.model_copy(update={"checks": tuple(checks)})
 
 
@@ -81,7 +86,7 @@ def _with_reading(profile: Profile, key: str, text: str, setting: str) -> Profil
         raise UsageError(
             "usage.setting-unknown",
             value=f"reading.{key}",
-            known=", ".join(ReadingSpec.model_fields),
+            known=", ".join(nearest(key, ReadingSpec.model_fields)),
             example="reading.blocks=skip",
         )
     try:

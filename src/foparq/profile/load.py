@@ -4,15 +4,17 @@
 import hashlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
 
 from foparq.errors import ManifestError, ProfileError, QuantityError, UsageError
+from foparq.names import nearest
 from foparq.profile.claims import refuse_false_claims, refuse_false_elements
 from foparq.profile.elements import ElementSpec
+from foparq.profile.examples import EXAMPLES
 from foparq.profile.find import find_profile, is_shipped, shipped_profiles
-from foparq.profile.manifest import Manifest
+from foparq.profile.manifest import Language, Manifest
 from foparq.profile.schema import CheckSpec, Profile, ProfileFile
 from foparq.profile.toml_text import TomlText, read_toml
 
@@ -35,53 +37,6 @@ _TOP_KEYS = {
 }
 #: what a profile of one's own says itself: it inherits no claim
 _OWN_KEYS = {"name", "title", "norms"}
-#: a right example for a key, shown when its value is wrong
-_EXAMPLES = {
-    "coarsest": 'coarsest = "1:200"',
-    "drawing": "[[drawing]]",
-    "apart": 'apart = "1 mm @ scale"',
-    "extends": 'extends = "et-doc-foparq-a"',
-    "areas": 'areas = ["REVESTIMENTO"]',
-    "blocks": 'blocks = "explode"',
-    "classes": 'classes = { "PORTA*" = "door" }',
-    "crs": 'crs = "local"',
-    "facade": 'facade = "N"',
-    "finest": 'finest = "1:1"',
-    "gap": 'gap = "0.2 mm @ scale"',
-    "hidden": 'hidden = "leave"',
-    "by": 'by = "name and office"',
-    "class": 'class = "window"',
-    "confirmed": "[[confirmed]]",
-    "counted": "counted = 12",
-    "decision": "[[decision]]",
-    "element": 'element = "Q5"',
-    "kind": 'kind = "omission"',
-    "language": 'language = "pt-BR"',
-    "layers": 'layers = ["PAREDE*"]',
-    "norms": 'norms = ["ISO 19157:2013"]',
-    "on": 'on = { reference = ["EIXO*"] }',
-    "limit": 'limit = "5 %"',
-    "name": 'name = "caderno-da-obra"',
-    "path": 'path = "fachada.dxf"',
-    "plane": 'plane = "xz"',
-    "product_class": 'product_class = "A"',
-    "profile": 'profile = "et-doc-foparq-a"',
-    "reason": 'reason = "why it is right all the same"',
-    "required": "required = true",
-    "rule": 'rule = "undershoot"',
-    "search": 'search = "1 mm @ scale"',
-    "sagitta": 'sagitta = "0.001 mm @ scale"',
-    "scale": 'scale = "1:50"',
-    "severity": 'severity = "major"',
-    "survey_sd": 'survey_sd = "3 mm"',
-    "tie": 'tie = "0.02 mm @ scale"',
-    "title": 'title = "Estação"',
-    "unit": 'unit = "m"',
-    "value": 'value = "mm"',
-    "visible": 'visible = "0.2 mm @ scale"',
-    "what": 'what = "unit"',
-}
-
 _SHOWN = 80  #: letters of a wrong value that a message repeats
 
 _Model = TypeVar("_Model", bound=BaseModel)
@@ -127,7 +82,7 @@ def load_profile(name: str, beside: Path | None = None, within: Path | None = No
                 file=str(path),
                 line=text.line((key,)),
                 key=key,
-                example=", ".join(sorted(_TOP_KEYS)),
+                example=", ".join(nearest(key, sorted(_TOP_KEYS))),
             )
     own = [part for part in (text, base) if part is not None and not is_shipped(part.path)]
     for part in own:
@@ -153,7 +108,7 @@ def _base(text: TomlText, within: Path | None) -> TomlText | None:
     place = {"file": str(text.path), "line": text.line(("extends",))}
     name = text.data["extends"]
     if not isinstance(name, str):
-        raise ProfileError("toml.wrong-value", key="extends", value=name, example=_EXAMPLES["extends"], **place)
+        raise ProfileError("toml.wrong-value", key="extends", value=name, example=EXAMPLES["extends"], **place)
     base = read_toml(find_profile(name, text.path.parent, within, place), ProfileError)
     if "extends" in base.data:
         raise ProfileError("profile.extends-twice", value=base.path.stem, **place)
@@ -177,6 +132,16 @@ def load_manifest(path: Path) -> Manifest:
     return _validated(Manifest, text.data, text, ManifestError)
 
 
+def stated_language(path: Path) -> str | None:
+    """Language that a manifest asks for, whatever else may be wrong in it; ``None`` if it names none that is known."""
+    try:
+        delivery = read_toml(path, ManifestError).data.get("delivery")
+    except ManifestError:
+        return None
+    language = delivery.get("language") if isinstance(delivery, Mapping) else None
+    return language if language in get_args(Language) else None
+
+
 def _checks(text: TomlText) -> list[CheckSpec]:
     made = []
     for number, table in enumerate(_tables(text, "check")):
@@ -194,7 +159,8 @@ def _elements(text: TomlText) -> list[ElementSpec]:
         known = ElementSpec.KINDS.get(kind) if isinstance(kind, str) else None
         if kind is not None and known is None:
             place = {"file": str(text.path), "line": text.line(("element", number, "kind"))}
-            raise ProfileError("profile.unknown-kind", value=kind, known=", ".join(sorted(ElementSpec.KINDS)), **place)
+            kinds = ", ".join(nearest(str(kind), sorted(ElementSpec.KINDS)))
+            raise ProfileError("profile.unknown-kind", value=kind, known=kinds, **place)
         made.append(_validated(known or ElementSpec, table, text, ProfileError, ("element", number)))
     return made
 
@@ -233,7 +199,7 @@ def _validated(
     except QuantityError as error:
         place = _place_of(data, error.fields.get("value"))
         known = str(place[-1]) if place else ""
-        example = _EXAMPLES.get(known, "").partition(" = ")[2].strip('"') or error.fields.get("example", "")
+        example = EXAMPLES.get(known, "").partition(" = ")[2].strip('"') or error.fields.get("example", "")
         fields = {**error.fields, "example": example, "file": str(text.path), "line": text.line((*prefix, *place))}
         raise kind(f"{error.message}-at", key=".".join(map(str, place)), **fields) from None
     except ValidationError as errors:
@@ -242,10 +208,10 @@ def _validated(
         key = str(next((part for part in reversed(place) if isinstance(part, str)), ""))
         fields = {"file": str(text.path), "line": text.line((*prefix, *place)), "key": key}
         if first["type"] == "extra_forbidden":
-            raise kind("toml.unknown-key", example=", ".join(_keys(model, place)), **fields) from None
+            raise kind("toml.unknown-key", example=", ".join(nearest(key, _keys(model, place))), **fields) from None
         if first["type"] == "missing":
-            raise kind("toml.missing-key", example=_EXAMPLES.get(key, f"{key} = ..."), **fields) from None
-        example = _EXAMPLES.get(key, str(first["msg"]))
+            raise kind("toml.missing-key", example=EXAMPLES.get(key, f"{key} = ..."), **fields) from None
+        example = EXAMPLES.get(key, str(first["msg"]))
         raise kind("toml.wrong-value", value=str(first["input"])[:_SHOWN], example=example, **fields) from None
 
 

@@ -17,6 +17,7 @@ def _known_unit(text: object) -> str:
 
 #: no building is larger than its planet
 Ordinate = Annotated[float, Field(ge=-1e8, le=1e8, allow_inf_nan=False)]
+Language = Literal["pt-BR", "en"]
 Triple = tuple[Ordinate, Ordinate, Ordinate]
 UnitName = Annotated[str, BeforeValidator(_known_unit)]
 
@@ -28,7 +29,7 @@ class DeliverySection(Strict):
     profile: str = "et-doc-foparq-a"  #: a shipped name, or a file in the folder
     scale: ScaleText | None = None
     crs: str = "local"
-    language: Literal["pt-BR", "en"] | None = None
+    language: Language | None = None
 
 
 class DrawingSection(Strict):

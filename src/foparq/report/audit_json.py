@@ -97,7 +97,7 @@ def _field(words: Words, value: object) -> object:
     """Field of a reason; reasons within it are written like reasons."""
     if isinstance(value, Reason):
         return _reason(words, value)
-    if isinstance(value, tuple) and any(isinstance(part, Reason) for part in value):
+    if isinstance(value, tuple | list) and any(isinstance(part, Reason) for part in value):
         return [_field(words, part) for part in value]
     return _value(value)
 

@@ -10,6 +10,7 @@ import numpy as np
 from foparq.columns import Flags, Index, Reals, Texts
 from foparq.errors import UnreadableError
 from foparq.model.tables import Checkpoints, Distances, FeatureList
+from foparq.names import nearest
 from foparq.profile.manifest import SurveySection, TableSection
 from foparq.read.table.cells import Odd
 from foparq.read.table.csv_text import is_workbook, read_text
@@ -153,7 +154,9 @@ def read_feature_list(path: Path, section: TableSection | None = None) -> Featur
         if not use[row]:
             raise sheet.fault("table.use-unknown", row, "use", example="required")
         if accepted[row] and accepted[row] not in OMISSIONS:
-            raise sheet.fault("table.code-unknown", row, "omission_accepted", example=", ".join(OMISSIONS))
+            raise sheet.fault(
+                "table.code-unknown", row, "omission_accepted", example=", ".join(nearest(accepted[row], OMISSIONS))
+            )
         if accepted[row] and not evidence[row]:
             raise sheet.fault("table.no-evidence", row, "omission_accepted", example="IMG_0412.jpg")
     return FeatureList(
