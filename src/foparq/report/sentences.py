@@ -16,6 +16,7 @@ from foparq.findings.outcome import Outcome, SetAside
 from foparq.findings.table import Findings
 from foparq.model.delivery import Source
 from foparq.model.drawing import Repair, Skipped
+from foparq.report.manual import plain
 from foparq.report.record import AuditRecord
 from foparq.report.words import Words, printable
 
@@ -111,7 +112,7 @@ def rule_meaning(words: Words, code: str) -> str:
     The manual is the docstring of the rule; catalogues of other languages translate it as ``rules.CODE.manual``.
     """
     manual = words.find(f"rules.{code}.manual") or _manuals()[code]
-    return " ".join(manual.strip().split("\n\n", 1)[0].split())
+    return plain(" ".join(manual.strip().split("\n\n", 1)[0].split()))
 
 
 @cache
