@@ -14,6 +14,7 @@ from foparq.evaluate.quality import Element, Reason, Verdict
 from foparq.findings.table import Severity
 from foparq.model.delivery import LOST, SourceStatus
 from foparq.report.balances import balance_note, balance_rows
+from foparq.report.contract import contract_line
 from foparq.report.files import text_of
 from foparq.report.formats import format_named
 from foparq.report.record import AuditRecord
@@ -76,6 +77,8 @@ def _text(record: AuditRecord, say: Words, written: Sequence[Path]) -> None:
     )
     click.echo(styled(wrapped(_headline(record, say)), bold=True, fg=colour))
     tell(_terms(record, say))
+    if contract := contract_line(say, record):
+        tell(f"{contract}.")
     # Of loose files the headline tells the first reason itself: faults, or none.
     above = record.loose and record.quality.verdict is not Verdict.UNDECIDED
     for reason in record.quality.why[1 if above else 0 :]:

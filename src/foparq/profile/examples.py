@@ -3,6 +3,12 @@
 
 #: a right example for a key, shown when its value is wrong or missing
 EXAMPLES = {
+    "contract": 'contract = "12/2026"',
+    "contractor": 'contractor = "name of the office"',
+    "date": "date = 2026-11-20",
+    "process": 'process = "01234.000567/2026-89"',
+    "responsible": 'responsible = "name, registration"',
+    "revision": 'revision = "2"',
     "coarsest": 'coarsest = "1:200"',
     "drawing": "[[drawing]]",
     "apart": 'apart = "1 mm @ scale"',

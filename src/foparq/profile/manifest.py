@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The delivery manifest ``delivery.toml``, typed. Every section is optional; what is absent is not assessed."""
 
+import datetime as dt
+import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
@@ -19,6 +21,9 @@ def _known_unit(text: object) -> str:
 Ordinate = Annotated[float, Field(ge=-1e8, le=1e8, allow_inf_nan=False)]
 Language = Literal["pt-BR", "en"]
 Triple = tuple[Ordinate, Ordinate, Ordinate]
+_LONGEST = 200  #: letters of an entry on the first page
+_ISO_DAY = re.compile(r"\d{4}-\d{2}-\d{2}")
+_FIRST_YEAR, _LAST_YEAR = 1950, 2200  #: of a delivery: others are slips of the pen
 UnitName = Annotated[str, BeforeValidator(_known_unit)]
 
 
@@ -67,6 +72,38 @@ def _said(text: object) -> str:
 Said = Annotated[str, BeforeValidator(_said)]
 
 
+def _entry(text: object) -> str:
+    """One line of a form; a number is taken as written."""
+    if isinstance(text, int) and not isinstance(text, bool):
+        text = str(text)
+    if not isinstance(text, str) or not text.strip() or not text.isprintable() or len(text) > _LONGEST:
+        raise ValueError("one line of text")
+    return text.strip()
+
+
+def _day(value: object) -> dt.date:
+    """Calendar day: a date of TOML, or its text; 3/12/2026 would be two days."""
+    if isinstance(value, str):
+        value = dt.date.fromisoformat(value) if _ISO_DAY.fullmatch(value) else None
+    if not isinstance(value, dt.date) or isinstance(value, dt.datetime) or not _FIRST_YEAR <= value.year <= _LAST_YEAR:
+        raise ValueError("a day")
+    return value
+
+
+Entry = Annotated[str, BeforeValidator(_entry)]
+
+
+class ContractSection(Strict):
+    """``[contract]``: under which contract the delivery was made."""
+
+    process: Entry = ""  #: number of the administrative process
+    contract: Entry = ""
+    contractor: Entry = ""
+    responsible: Entry = ""  #: person, with registration
+    revision: Entry = ""
+    date: Annotated[dt.date, BeforeValidator(_day)] | None = None  #: of delivery
+
+
 class ConfirmedSection(Strict):
     """``[[confirmed]]``: a statement that witnesses contradict, confirmed by a person."""
 
@@ -98,6 +135,7 @@ class Manifest(Strict):
     distances: SurveySection | None = None
     confirmed: tuple[ConfirmedSection, ...] = ()
     decision: tuple[DecisionSection, ...] = ()
+    contract: ContractSection | None = None
     record: Mapping[str, Any] | None = None  #: descriptive record: kept, not assessed yet
     metadata: Mapping[str, Any] | None = None  #: kept, not assessed yet
     capture: Mapping[str, Any] | None = None  #: kept, not assessed yet

@@ -45,6 +45,9 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         "command": "check" if record.loose else "audit",
         "title": record.delivery.title,
         "language": record.language,
+        "contract": None
+        if record.delivery.contract is None
+        else {name: value or None for name, value in asdict(record.delivery.contract).items()},
         "verdict": None if record.loose else record.quality.verdict.value,
         "conclusion": _CONCLUSIONS[record.quality.verdict],
         "why": [_reason(words, reason) for reason in record.quality.why],

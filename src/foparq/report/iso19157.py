@@ -15,6 +15,7 @@ from lxml.builder import ElementMaker
 
 from foparq.evaluate.measures import measures
 from foparq.evaluate.quality import Element, ElementStatus, Reason, Residual, Verdict
+from foparq.report.contract import contract_line, responsible_party
 from foparq.report.record import AuditRecord
 from foparq.report.residuals import standing_words
 from foparq.report.sentences import parameter_name, reason_sentence, specification
@@ -110,6 +111,7 @@ class _Report:
         party = _cit.CI_Organisation(_cit.name(_text(maker)))
         role = _cit.role(_code("CI_RoleCode", "processor", _cit))
         node.append(_cit.citedResponsibleParty(_cit.CI_Responsibility(role, _cit.party(party))))
+        node.extend(responsible_party(self.record, _cit, _text, _code))
         for name in (name for name in _BESIDE if name not in self.record.crashed):
             node.append(_cit.onlineResource(_cit.CI_OnlineResource(_cit.linkage(_text(name)))))
         return node
@@ -118,7 +120,8 @@ class _Report:
         verdict = self.words(f"evaluate.verdict.name.{self.record.quality.verdict.value}")
         key = "evaluate.xml.abstract-loose" if self.record.loose else "evaluate.xml.abstract"
         opening = self.words(key, profile=self._specification(), verdict=verdict)
-        quality = self.record.quality
+        quality, contract = self.record.quality, contract_line(self.words, self.record)
+        opening = f"{opening} {contract}." if contract else opening
         return " ".join([opening, *self._sentences(() if self.record.loose else (*quality.why, *quality.remarks))])
 
     def _specification(self) -> str:

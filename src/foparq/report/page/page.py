@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from foparq.findings.table import Severity
+from foparq.report.contract import contract_facts
 from foparq.report.page.completeness import CompletenessView, completeness_view
 from foparq.report.page.coverage import LookedAt, coverage
 from foparq.report.page.drawing import GROUPS, Picture, picture_of
@@ -44,6 +45,7 @@ class View:
     language: str
     suffix: str  #: of anchors
     headline: Headline
+    contract: tuple[tuple[str, str], ...]  #: what the manifest states of it, name and value
     elements: tuple[ElementView, ...]
     residuals: tuple[ResidualsView, ...]
     completeness: CompletenessView | None  #: none where nothing was compared
@@ -110,6 +112,7 @@ def _view(record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], 
         words=words,
         language=language,
         suffix=suffix,
+        contract=contract_facts(words, record),
         headline=headline(words, record, listing.groups, suffix),
         elements=element_views(words, record),
         residuals=residual_views(words, record),
