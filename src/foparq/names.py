@@ -35,6 +35,11 @@ def unaccented(name: str) -> str:
     return "".join(letter for letter in letters if not unicodedata.combining(letter))
 
 
+def likeness(one: str, two: str) -> float:
+    """Share of letters that two names have in common, 0 to 1, without regard to case and accents."""
+    return difflib.SequenceMatcher(None, unaccented(one), unaccented(two), autojunk=False).ratio()
+
+
 def nearest(word: str, known: Iterable[str]) -> list[str]:
     """Known names, those that are most like a word first; others stay in their order.
 
@@ -43,9 +48,8 @@ def nearest(word: str, known: Iterable[str]) -> list[str]:
     >>> nearest("chek", ["audit", "check", "init"])
     ['check', 'init', 'audit']
     """
-    wanted = unaccented(word)
     names = list(known)
-    alike = [difflib.SequenceMatcher(None, wanted, unaccented(name), autojunk=False).ratio() for name in names]
+    alike = [likeness(word, name) for name in names]
     return [names[n] for n in sorted(range(len(names)), key=lambda n: -alike[n])]
 
 

@@ -200,6 +200,8 @@ def _validated(
         place = _place_of(data, error.fields.get("value"))
         known = str(place[-1]) if place else ""
         example = EXAMPLES.get(known, "").partition(" = ")[2].strip('"') or error.fields.get("example", "")
+        if error.message == "quantity.unknown-unit":
+            example = f'{known} = "{error.fields["example"]}"'
         fields = {**error.fields, "example": example, "file": str(text.path), "line": text.line((*prefix, *place))}
         raise kind(f"{error.message}-at", key=".".join(map(str, place)), **fields) from None
     except ValidationError as errors:
