@@ -76,8 +76,8 @@ _IN_FIELD = (
 )  # fmt: skip
 _IN_DRAWING = (
     "no desenho", "do desenho", "de desenho", "desenho", "na prancha", "no CAD", "CAD", "no DXF", "DXF", "entregue",
-    "desenhada", "desenhado", "restituída", "restituído", "na restituição", "no produto", "drawing", "in the drawing", "drawn",
-    "delivered", "en el dibujo", "del dibujo", "dibujo", "entregada",
+    "desenhada", "desenhado", "restituída", "restituído", "na restituição", "no produto", "drawing", "in the drawing",
+    "drawn", "delivered", "en el dibujo", "del dibujo", "dibujo", "entregada",
 )  # fmt: skip
 #: names made of two words, beside those above
 DISTANCE_PHRASES: Names = {
