@@ -2,6 +2,7 @@
 """What the terminal shows of a finished audit."""
 
 import textwrap
+from collections import defaultdict
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from foparq.cli.lines import styled, tell, width, wrapped
 from foparq.cli.show_findings import show_findings
 from foparq.evaluate.quality import Element, Reason, Verdict
 from foparq.findings.table import Severity
-from foparq.model.delivery import LOST, SourceStatus
+from foparq.model.delivery import LOST, Source, SourceStatus
 from foparq.report.balances import balance_note, balance_rows
 from foparq.report.contract import contract_line
 from foparq.report.files import text_of
@@ -128,26 +129,20 @@ def _terms(record: AuditRecord, say: Words) -> str:
 
 
 class _Told:
-    """Reasons that stand above already, so that none is read twice."""
+    """Reasons that stand on the terminal already, of whichever element, so that none is read twice."""
 
     def __init__(self, reasons: Sequence[Reason]) -> None:
-        self._known: dict[tuple[str, str], set[str]] = {}
-        for reason in reasons:
-            self._known.setdefault(_but_element(reason), set()).update(_elements_of(reason))
+        self._known = {_but_element(reason) for reason in reasons}
 
-    def __contains__(self, reason: Reason) -> bool:
-        return set(_elements_of(reason)) <= self._known.get(_but_element(reason), set()) and (
-            _but_element(reason) in self._known
-        )
+    def new(self, reasons: Sequence[Reason]) -> list[Reason]:
+        """Those that were not told before; from now on they were."""
+        fresh = [reason for reason in reasons if _but_element(reason) not in self._known]
+        self._known |= {_but_element(reason) for reason in fresh}
+        return fresh
 
 
 def _but_element(reason: Reason) -> tuple[str, str]:
     return reason.message, repr([field for field in reason.fields if field[0] != "element"])
-
-
-def _elements_of(reason: Reason) -> list[str]:
-    value = dict(reason.fields).get("element", [])
-    return [str(one) for one in value] if isinstance(value, list | tuple) else [str(value)]
 
 
 def _element(element: Element, say: Words, told: _Told) -> None:
@@ -160,9 +155,8 @@ def _element(element: Element, say: Words, told: _Told) -> None:
     for line in rest:
         click.echo(f"{'':<{_ID}}{line}")
     if element.status.value not in {"pass", "not-applicable", "reported"}:
-        for reason in element.why:
-            if reason not in told:
-                tell(reason_sentence(say, reason), " " * _ID)
+        for reason in told.new(element.why):
+            tell(reason_sentence(say, reason), " " * _ID)
 
 
 def _worst(record: AuditRecord, say: Words) -> None:
@@ -193,27 +187,23 @@ def _completeness(record: AuditRecord, say: Words) -> None:
 
 
 def _unread(record: AuditRecord, say: Words) -> list[str]:
-    return [
-        f"{printable(source.path)}: {source_sentence(say, source)}"
-        for source in record.delivery.sources
-        if source.status in LOST
-    ]
+    return [_file_line(source, say) for source in record.delivery.sources if source.status in LOST]
+
+
+def _file_line(source: Source, say: Words) -> str:
+    """What became of a file; most sentences name it themselves."""
+    sentence, name = source_sentence(say, source), printable(source.path)
+    return sentence if sentence.startswith(name) else f"{name}: {sentence}"
 
 
 def _not_checked(record: AuditRecord, say: Words) -> None:
     lines = _unread(record, say)
-    lines += [
-        f"{printable(source.path)}: {source_sentence(say, source)}"
-        for source in record.delivery.sources
-        if source.status is SourceStatus.UNNAMED
-    ]
-    lines += sorted(
-        {
-            f"{printable(outcome.source)}: {outcome.name}: {outcome_because(say, outcome)}"
-            for outcome in record.outcomes
-            if outcome.because.opens and not outcome.helper
-        }
-    )
+    lines += [_file_line(source, say) for source in record.delivery.sources if source.status is SourceStatus.UNNAMED]
+    rules: dict[tuple[str, str], list[str]] = defaultdict(list)
+    for outcome in record.outcomes:
+        if outcome.because.opens and not outcome.helper:
+            rules[printable(outcome.source), outcome_because(say, outcome)].append(outcome.name)
+    lines += sorted(f"{source} ({', '.join(sorted(set(names)))}): {why}" for (source, why), names in rules.items())
     lines += sorted(
         {
             f"{printable(outcome.source)}: {aside_sentence(say, one)}"
