@@ -34,6 +34,7 @@ from foparq.report.words import Words, printable
 
 _ID = 11  #: letters of the column of ids
 _BESIDE = 44  #: letters of the columns of values, limits and states
+_NARROW = 16  #: letters of a title, at least
 _WIDE = 106  #: letters of a line where there is no terminal
 _LOOSE = {Verdict.ACCEPTED: "clean", Verdict.REJECTED: "faults", Verdict.UNDECIDED: "incomplete"}
 
@@ -149,9 +150,9 @@ def _element(element: Element, say: Words, told: _Told) -> None:
     value = "–" if element.value is None else _size(say, element.value, element.unit)
     limit = "" if element.limit is None else f"{element.comparison} {_size(say, element.limit, element.unit)}"
     status = say(f"cli.status.{element.status.value}")
-    room = (width() or _WIDE) - _BESIDE
-    title, *rest = textwrap.wrap(element_title(say, element), room - _ID) or [""]
-    click.echo(f"{element.id:<{_ID}}{title:<{room - _ID}} {value:>12} {limit:>13}  {status}")
+    room = max(_NARROW, (width() or _WIDE) - _BESIDE - _ID)
+    title, *rest = textwrap.wrap(element_title(say, element), room) or [""]
+    click.echo(f"{element.id:<{_ID}}{title:<{room}} {value:>12} {limit:>13}  {status}")
     for line in rest:
         click.echo(f"{'':<{_ID}}{line}")
     if element.status.value not in {"pass", "not-applicable", "reported"}:

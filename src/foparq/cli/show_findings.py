@@ -27,10 +27,9 @@ def show_findings(record: AuditRecord, say: Words) -> None:
             count = int(np.count_nonzero((table.name == name) & (table.severity == severity)))
             rule = of_name[0]["rule"]
             click.echo()
-            click.echo(
-                styled(f"{rule} {name}", bold=True)
-                + f" ({say(f'cli.severity.{severity.value}')}): {say.count(count)}. {say(f'rules.{rule}.title')}"
-            )
+            head = f"{rule} {name} ({say(f'cli.severity.{severity.value}')}): {say.count(count)}."
+            lines = wrapped(f"{head} {say(f'rules.{rule}.title')}")
+            click.echo(lines.replace(f"{rule} {name}", styled(f"{rule} {name}", bold=True), 1))
             for row in of_name[:_SHOWN]:
                 file = printable(row["source"]) if several else ""
                 tell("  ".join(part for part in (file, row["paste"], row["message"]) if part), "  ", "      ")
