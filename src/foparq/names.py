@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Names that people write, compared as people read them."""
 
+import difflib
 import unicodedata
+from collections.abc import Iterable
 
 _SHORT = 3  #: letters of a word that is not taken for a plural: ``"S"`` is a facade
 #: plurals of Portuguese that change more than their last letter: vãos, portões, painéis, óis, gradis
@@ -31,6 +33,24 @@ def unaccented(name: str) -> str:
     """
     letters = unicodedata.normalize("NFD", folded(name))
     return "".join(letter for letter in letters if not unicodedata.combining(letter))
+
+
+def likeness(one: str, two: str) -> float:
+    """Share of letters that two names have in common, 0 to 1, without regard to case and accents."""
+    return difflib.SequenceMatcher(None, unaccented(one), unaccented(two), autojunk=False).ratio()
+
+
+def nearest(word: str, known: Iterable[str]) -> list[str]:
+    """Known names, those that are most like a word first; others stay in their order.
+
+    Examples
+    --------
+    >>> nearest("chek", ["audit", "check", "init"])
+    ['check', 'init', 'audit']
+    """
+    names = list(known)
+    alike = [likeness(word, name) for name in names]
+    return [names[n] for n in sorted(range(len(names)), key=lambda n: -alike[n])]
 
 
 def of_kind(name: str) -> str:

@@ -7,6 +7,7 @@ object. A bare number is never a quantity.
 
 import math
 import re
+import unicodedata
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Annotated
@@ -60,6 +61,13 @@ _SPELLED = {
     "metre": "m",
     "°": "deg",
 }
+#: words for units that are not taken, each with the symbol that is meant
+_WORDS = {
+    "m": ("metro", "meter", "metre", "mt", "mts"), "mm": ("milimetro", "millimeter", "millimetre"),
+    "cm": ("centimetro", "centimeter", "centimetre"), "dm": ("decimetro", "decimeter", "decimetre"),
+    "km": ("quilometro", "kilometer", "kilometre", "kilometro"), "in": ("polegada", "inche", "inch", "pulgada", "pol"),
+    "ft": ("pe", "foot", "feet", "pie"), "yd": ("jarda", "yard", "yarda"),
+}  # fmt: skip
 _RATIOS = {"%": 0.01, "1": 1.0}
 _COUNTS = {"items": 1.0}
 _ANGLES = {"deg": math.pi / 180, "rad": 1.0}
@@ -219,10 +227,20 @@ def parse_length_unit(text: str) -> float:
     try:
         length = parse_quantity(text, "m")
     except QuantityError:
-        raise QuantityError("quantity.unknown-unit", value=text, known=", ".join(LENGTHS), example="m") from None
+        raise _unknown_unit(text) from None
     if length.at_scale or not _FINEST_UNIT <= length.si() <= _COARSEST_UNIT:
-        raise QuantityError("quantity.unknown-unit", value=text, known=", ".join(LENGTHS), example="m")
+        raise _unknown_unit(text)
     return length.si()
+
+
+def _unknown_unit(text: str) -> QuantityError:
+    """Error that shows the symbol which a word means first."""
+    letters = unicodedata.normalize("NFD", text.strip().strip(".").casefold())
+    word = "".join(letter for letter in letters if not unicodedata.combining(letter))
+    forms = {word, word.removesuffix("s")}
+    meant = next((unit for unit, words in _WORDS.items() if unit in forms or not forms.isdisjoint(words)), None)
+    known = [*([meant] if meant else []), *(unit for unit in LENGTHS if unit != meant)]
+    return QuantityError("quantity.unknown-unit", value=text, known=", ".join(known), example=meant or "m")
 
 
 def _product(*factors: float) -> float:

@@ -9,7 +9,7 @@ from tests.evaluate.deliveries import drawing, not_run, outcome, profile, source
 
 from foparq.evaluate.evaluate import evaluate
 from foparq.evaluate.evidence import Evidence
-from foparq.evaluate.quality import QualityReport, Verdict
+from foparq.evaluate.quality import QualityReport, Verdict, because
 from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, SetAside
 from foparq.model.delivery import Delivery, SourceStatus
@@ -126,5 +126,6 @@ def test_items_that_no_rule_could_judge_are_named_up_to_ten_and_counted_once() -
     again = outcome("b", checked=1, aside=(odd[0], silent))
     report = concluded(outcome("a", checked=1, aside=(settled, *odd)), again)
     assert report.verdict is Verdict.UNDECIDED
-    assert told(report) == [("files.unfit", {"items": [f"{n} (L)" for n in range(10)], "n": 12})]
+    shown = [*(f"{n} (L)" for n in range(10)), because("list.more", n=2)]
+    assert told(report) == [("files.unfit", {"items": shown, "n": 12})]
     assert concluded(outcome("a", checked=1, aside=(settled,))).verdict is Verdict.ACCEPTED

@@ -148,7 +148,9 @@ def test_the_first_sheet_or_the_stated_one(tmp_path: Path, write: Writer) -> Non
         stated = read_distances(path, SurveySection(path="t", sheet=name))
         assert (stated.id.tolist(), stated.skipped) == (["B"], ())
     missing = fault(path, read_distances, SurveySection(path="t", sheet="Medidas"))
-    assert (missing.message, missing.fields["known"]) == ("table.sheet-missing", "Plan1, Medições, vazia")
+    assert (missing.message, missing.fields["known"]) == ("table.sheet-missing", "Medições, vazia, Plan1"), (
+        "the nearest first"
+    )
     assert fault(path, read_distances, SurveySection(path="t", sheet="vazia")).message == "table.no-columns"
 
 

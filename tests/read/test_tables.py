@@ -206,6 +206,7 @@ def test_faults_of_a_feature_list(tmp_path: Path, row: str, message: str, key: s
 
 
 @pytest.mark.shared
-def test_published_checkpoints_with_other_headers_name_the_missing_column(shared: Path) -> None:
+def test_published_checkpoints_with_other_headers_name_the_missing_columns(shared: Path) -> None:
     error = fault(shared / "data/accuracy/abdullah2014_checkpoints.csv")
-    assert (error.message, error.fields["key"], error.fields["line"]) == ("table.column-missing", "x", 1)
+    assert (error.message, error.fields["key"], error.fields["line"]) == ("table.column-missing", "x, y, z", 1)
+    assert "x: x, e, este, leste, easting" in str(error.fields["known"]), "every name that would be taken"

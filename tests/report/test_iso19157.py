@@ -22,6 +22,7 @@ from foparq.evaluate.quality import (
 from foparq.findings.outcome import Outcome, Status
 from foparq.findings.table import no_findings
 from foparq.model.delivery import Delivery
+from foparq.model.statements import Contract
 from foparq.report.iso19157 import NAMESPACES, quality_xml, write_quality_xml
 from foparq.report.record import AuditRecord
 
@@ -125,6 +126,15 @@ def test_valid_with_hostile_texts_and_with_nothing(schema: etree.XMLSchema, *, l
     schema.assertValid(etree.fromstring(quality_xml(replace(hostile, loose=loose))))
     empty = record((), delivery=Delivery(title="", sources=()), started="", profile_sha256="", loose=loose)
     schema.assertValid(etree.fromstring(quality_xml(empty)))
+
+
+@pytest.mark.shared
+@pytest.mark.parametrize("contractor", ["", HOSTILE])
+@pytest.mark.parametrize("responsible", ["", HOSTILE])
+def test_valid_with_whom_a_contract_names(schema: etree.XMLSchema, contractor: str, responsible: str) -> None:
+    contract = Contract(process="1", contractor=contractor, responsible=responsible, date="2026-11-20")
+    document = quality_xml(record(one_of_each(), delivery=Delivery(title="Casa", sources=(), contract=contract)))
+    schema.assertValid(etree.fromstring(document))
 
 
 @pytest.mark.shared

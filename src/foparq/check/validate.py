@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """A profile against the rules that exist: a wrong tolerance is told before any file is read."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from foparq.check.registry import all_rules
 from foparq.check.rule import Rule
 from foparq.errors import ProfileError
+from foparq.names import nearest
 from foparq.profile.schema import CheckSpec, Profile
 from foparq.units import Quantity
 
@@ -24,14 +25,16 @@ def validate_checks(profile: Profile) -> None:
     by_name = {rule.name: rule for rule in all_rules().values()}
     for spec in profile.checks:
         if spec.rule not in by_name:
-            raise ProfileError(
-                "profile.unknown-rule", value=spec.rule, example="undershoot", file=spec.file, line=spec.line
-            )
+            raise _unknown(spec.rule, by_name, spec.file, spec.line)
         _validate_tolerances(spec, by_name[spec.rule], profile.linework.tolerances)
     for element in profile.elements:
         for name in element.uses:
             if name not in by_name:
-                raise ProfileError("profile.unknown-rule", value=name, example="undershoot", file=profile.path, line=1)
+                raise _unknown(name, by_name, profile.path, 1)
+
+
+def _unknown(name: str, known: Iterable[str], file: str, line: int) -> ProfileError:
+    return ProfileError("profile.unknown-rule", value=name, example=nearest(name, known)[0], file=file, line=line)
 
 
 def _validate_tolerances(spec: CheckSpec, rule: Rule, common: Mapping[str, Quantity]) -> None:
@@ -39,7 +42,8 @@ def _validate_tolerances(spec: CheckSpec, rule: Rule, common: Mapping[str, Quant
     wanted = dict(rule.tolerances)
     for name, quantity in spec.tolerances.items():
         if name not in wanted:
-            raise ProfileError("profile.unknown-tolerance", key=name, known=", ".join(wanted) or "-", **place)
+            known = ", ".join(nearest(name, wanted)) or "-"
+            raise ProfileError("profile.unknown-tolerance", key=name, known=known, **place)
         if quantity.symbol != wanted[name]:
             example = _EXAMPLES[wanted[name]]
             raise ProfileError("profile.tolerance-unit", key=name, value=str(quantity), example=example, **place)

@@ -16,7 +16,7 @@ def command(say: Words) -> click.Command:
     def run(**options: Any) -> int:  # noqa: ANN401 - click hands over what the parameters say
         from foparq.cli.audit_work import audit_work  # noqa: PLC0415 - the geometry engine loads when there is work
 
-        return audit_work(say, asked=click.get_current_context().obj, **options)
+        return audit_work(spoken=click.get_current_context().obj, **options)
 
     return click.Command(
         "audit",

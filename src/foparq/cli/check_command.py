@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from foparq.cli.common import format_option, language_option
+from foparq.cli.common import OneOf, format_option, language_option
 from foparq.report.words import Words
 
 
@@ -37,7 +37,7 @@ def command(say: Words) -> click.Command:
             click.Option(["--unit"], metavar="UNIT", help=say("cli.check.unit")),
             click.Option(
                 ["--plane"],
-                type=click.Choice(["xy", "xz", "yz", "fit"]),
+                type=OneOf(say, ["xy", "xz", "yz", "fit"]),
                 help=say("cli.check.plane"),
             ),
             click.Option(["--areas"], metavar="LAYER", multiple=True, help=say("cli.check.areas")),

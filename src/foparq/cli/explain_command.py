@@ -7,7 +7,9 @@ import click
 
 from foparq.check.catalogue import find_card
 from foparq.cli.common import format_option, language_option
+from foparq.cli.lines import styled, tell
 from foparq.cli.rules_command import as_json
+from foparq.report.manual import manual_of
 from foparq.report.words import Words
 
 
@@ -16,21 +18,28 @@ def command(say: Words) -> click.Command:
 
     def run(rule: str, form: str) -> int:
         card = find_card(rule)
-        manual = say.find(f"rules.{card.code}.manual") or card.manual
+        sections = [(say(f"report.manual.{part.kind}") if part.kind else "", part) for part in manual_of(say, card)]
         mend = say(f"rules.{card.code}.mend")
         if form == "json":
+            manual = "\n\n".join("\n".join(filter(None, (title, *part.paragraphs))) for title, part in sections)
             click.echo(json.dumps({**as_json(card, say), "manual": manual, "mend": mend}, ensure_ascii=False, indent=2))
             return 0
-        click.echo(click.style(f"{card.code} {card.name}", bold=True))
+        click.echo(styled(f"{card.code} {card.name}", bold=True))
         click.echo(say(f"rules.{card.code}.title"))
+        for title, part in sections:
+            click.echo()
+            if title:
+                click.echo(styled(title, bold=True))
+            for n, paragraph in enumerate(part.paragraphs):
+                if n and not title:
+                    click.echo()
+                tell(paragraph)
         click.echo()
-        click.echo(manual)
-        click.echo()
-        click.echo(click.style(say("cli.explain.mend"), bold=True))
-        click.echo(mend)
+        click.echo(styled(say("cli.explain.mend"), bold=True))
+        tell(mend)
         if card.measures:
             click.echo()
-            click.echo(say("cli.explain.measures", measures=", ".join(card.measures)))
+            tell(say("cli.explain.measures", measures=", ".join(card.measures)))
         return 0
 
     return click.Command(

@@ -13,10 +13,13 @@ from pathlib import Path
 import click
 
 from foparq import __version__
+from foparq.cli.common import Spoken, language_option
 from foparq.errors import FoparqError
 from foparq.exits import Exit, exit_of_error
+from foparq.names import nearest
+from foparq.report.error_json import error_json
 from foparq.report.harmless import log_text
-from foparq.report.words import LANGUAGES, Words, language_of
+from foparq.report.words import Words, language_named, language_of
 from foparq.resources import shipped
 
 #: subcommands in the order of the help
@@ -34,6 +37,15 @@ class Commands(click.Group):
         """Names in the order of the help."""
         return list(COMMANDS)
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The subcommand of the first word; an unknown one is answered with the nearest."""
+        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+            near = nearest(args[0], COMMANDS)
+            ctx.fail(self.say("cli.unknown-command", value=args[0], example=near[0], known=near))
+        return super().resolve_command(ctx, args)
+
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
         """The subcommand, loaded now."""
         if cmd_name not in COMMANDS:
@@ -48,9 +60,7 @@ def command_line(say: Words) -> click.Group:
     group = Commands(
         say, name="foparq", help=say("cli.foparq"), context_settings={"help_option_names": ["-h", "--help"]}
     )
-    group.params.append(
-        click.Option(["--lang"], type=click.Choice(LANGUAGES), expose_value=False, help=say("cli.option.lang"))
-    )
+    group.params.append(language_option(say))
     version = f"foparq {__version__}"
     return click.version_option(message=version, version=__version__, help=say("cli.option.version"))(group)
 
@@ -69,30 +79,34 @@ def run(arguments: Sequence[str]) -> int:
         Exit code, see :class:`foparq.exits.Exit`.
     """
     _open_streams()
-    asked = _asked_language(arguments)
+    asked = language_named(_option(arguments, "--lang") or "")
     language = language_of(asked)
     _speak(language)
-    say = Words(language)
+    spoken = Spoken(asked, Words(language))
     try:
-        code = command_line(say).main(list(arguments), prog_name="foparq", standalone_mode=False, obj=asked)
+        code = command_line(spoken.say).main(list(arguments), prog_name="foparq", standalone_mode=False, obj=spoken)
         sys.stdout.flush()
     except SystemExit:
         return Exit.PIPE  # the reader of a pipe left early, as `head` does: click ends so
     except BaseException as error:  # noqa: BLE001 - no traceback reaches a user
-        return _last_word(error, say)
+        return _last_word(error, spoken.say, as_json=_option(arguments, "--format") == "json")
     return int(code or 0)
 
 
-def _last_word(error: BaseException, say: Words) -> Exit:
-    """Tell what ended the command; returns the exit code."""
+def _last_word(error: BaseException, say: Words, *, as_json: bool) -> Exit:
+    """Tell what ended the command, on standard output too if that is to be JSON; returns the exit code."""
     code, text = Exit.CRASHED, ""
     if isinstance(error, click.ClickException):
         error.show()
+        if as_json:
+            _as_json(error_json("usage", error.format_message(), {}, Exit.USAGE))
         return Exit.USAGE
     if isinstance(error, click.Abort | KeyboardInterrupt):
         code, text = Exit.STOPPED, say("cli.aborted")
     elif isinstance(error, FoparqError):
         code, text = exit_of_error(error), f"{say('cli.error')}: {say.error(error)}"
+        if as_json:
+            _as_json(error_json(error.message, say.error(error), error.fields, code))
     elif isinstance(error, OSError) and error.filename is None:  # standard output is full or gone
         _give_up_output()
         if error.errno == errno.EPIPE:
@@ -103,6 +117,12 @@ def _last_word(error: BaseException, say: Words) -> Exit:
         text = f"{say('cli.error')}: {say('cli.crashed', file=_kept_traceback())}"
     click.echo(text, err=True)
     return code
+
+
+def _as_json(lines: Sequence[str]) -> None:
+    with contextlib.suppress(OSError):  # told on standard error already
+        click.echo("\n".join(lines))
+        sys.stdout.flush()
 
 
 def _open_streams() -> None:
@@ -136,12 +156,12 @@ def _kept_traceback() -> str:
     return stream.name
 
 
-def _asked_language(arguments: Sequence[str]) -> str | None:
-    """The language asked for anywhere on the line: help texts need it before the line is understood."""
+def _option(arguments: Sequence[str], name: str) -> str | None:
+    """Value of an option anywhere on the line, needed before the line is understood, or where it is not."""
     for n, argument in enumerate(arguments):
-        if argument.startswith("--lang="):
+        if argument.startswith(f"{name}="):
             return argument.partition("=")[2]
-        if argument == "--lang" and n + 1 < len(arguments):
+        if argument == name and n + 1 < len(arguments):
             return arguments[n + 1]
     return None
 

@@ -1,19 +1,21 @@
 # SPDX-License-Identifier: MIT
 """What the terminal shows of a finished audit."""
 
-import os
-import shutil
+import textwrap
+from collections import defaultdict
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import click
 import numpy as np
 
-from foparq.evaluate.quality import Element, Verdict
+from foparq.cli.lines import styled, tell, width, wrapped
+from foparq.cli.show_findings import show_findings
+from foparq.evaluate.quality import Element, Reason, Verdict
 from foparq.findings.table import Severity
-from foparq.model.delivery import LOST, SourceStatus
+from foparq.model.delivery import LOST, Source, SourceStatus
 from foparq.report.balances import balance_note, balance_rows
+from foparq.report.contract import contract_line
 from foparq.report.files import text_of
 from foparq.report.formats import format_named
 from foparq.report.record import AuditRecord
@@ -30,8 +32,10 @@ from foparq.report.sentences import (
 )
 from foparq.report.words import Words, printable
 
-_SHOWN = 10  #: findings of one kind that the text names
-_WIDTH = 100
+_ID = 11  #: letters of the column of ids
+_BESIDE = 44  #: letters of the columns of values, limits and states
+_NARROW = 16  #: letters of a title, at least
+_WIDE = 106  #: letters of a line where there is no terminal
 _LOOSE = {Verdict.ACCEPTED: "clean", Verdict.REJECTED: "faults", Verdict.UNDECIDED: "incomplete"}
 
 
@@ -61,7 +65,7 @@ def show(record: AuditRecord, form: str, say: Words, written: Sequence[Path]) ->
 
 def _concise(record: AuditRecord, say: Words) -> None:
     for row in finding_rows(record):
-        place = "" if row["where"] is None else " ({})".format(", ".join(f"{value:.4f}" for value in row["where"]))
+        place = f" {row['paste']}" if row["paste"] else ""
         parts = [printable(str(part)) for part in (row["source"], row["layer"], row["handle"]) if part]
         click.echo(f"{':'.join(parts)}: {row['rule']} {row['name']} {_size(say, row['size'], row['unit'])}{place}")
     click.echo(f"{_headline(record, say)} {_terms(record, say)}")
@@ -73,27 +77,30 @@ def _text(record: AuditRecord, say: Words, written: Sequence[Path]) -> None:
         if not record.loose
         else None
     )
-    click.echo(_styled(_headline(record, say), bold=True, fg=colour))
-    click.echo(_terms(record, say))
+    click.echo(styled(wrapped(_headline(record, say)), bold=True, fg=colour))
+    tell(_terms(record, say))
+    if contract := contract_line(say, record):
+        tell(f"{contract}.")
     # Of loose files the headline tells the first reason itself: faults, or none.
     above = record.loose and record.quality.verdict is not Verdict.UNDECIDED
     for reason in record.quality.why[1 if above else 0 :]:
-        click.echo(f"  - {reason_sentence(say, reason)}")
+        tell(reason_sentence(say, reason), "  - ")
     if record.quality.remarks:
-        click.echo(say("cli.remarks"))
+        tell(say("cli.remarks"))
     for reason in record.quality.remarks:
-        click.echo(f"  - {reason_sentence(say, reason)}")
+        tell(reason_sentence(say, reason), "  - ")
     if not record.loose:
         click.echo()
+        told = _Told((*record.quality.why, *record.quality.remarks))
         for element in record.quality.elements:
-            _element(element, say)
+            _element(element, say, told)
         _worst(record, say)
         _completeness(record, say)
-    _findings(record, say)
+    show_findings(record, say)
     _not_checked(record, say)
     if written:
         click.echo()
-        click.echo(say("cli.written", folder=str(written[0].parent), files=[path.name for path in written]))
+        tell(say("cli.written", folder=str(written[0].parent), files=[path.name for path in written]))
 
 
 def _headline(record: AuditRecord, say: Words) -> str:
@@ -122,16 +129,35 @@ def _terms(record: AuditRecord, say: Words) -> str:
     )
 
 
-def _element(element: Element, say: Words) -> None:
+class _Told:
+    """Reasons that stand on the terminal already, of whichever element, so that none is read twice."""
+
+    def __init__(self, reasons: Sequence[Reason]) -> None:
+        self._known = {_but_element(reason) for reason in reasons}
+
+    def new(self, reasons: Sequence[Reason]) -> list[Reason]:
+        """Those that were not told before; from now on they were."""
+        fresh = [reason for reason in reasons if _but_element(reason) not in self._known]
+        self._known |= {_but_element(reason) for reason in fresh}
+        return fresh
+
+
+def _but_element(reason: Reason) -> tuple[str, str]:
+    return reason.message, repr([field for field in reason.fields if field[0] != "element"])
+
+
+def _element(element: Element, say: Words, told: _Told) -> None:
     value = "–" if element.value is None else _size(say, element.value, element.unit)
     limit = "" if element.limit is None else f"{element.comparison} {_size(say, element.limit, element.unit)}"
     status = say(f"cli.status.{element.status.value}")
-    title = element_title(say, element)
-    name = f"{element.id:<11}{title}"
-    click.echo(f"{name[:62]:<62} {value:>12} {limit:>13}  {status}")
-    for reason in element.why:
-        if element.status.value not in {"pass", "not-applicable", "reported"}:
-            click.echo(f"           {reason_sentence(say, reason)}")
+    room = max(_NARROW, (width() or _WIDE) - _BESIDE - _ID)
+    title, *rest = textwrap.wrap(element_title(say, element), room) or [""]
+    click.echo(f"{element.id:<{_ID}}{title:<{room}} {value:>12} {limit:>13}  {status}")
+    for line in rest:
+        click.echo(f"{'':<{_ID}}{line}")
+    if element.status.value not in {"pass", "not-applicable", "reported"}:
+        for reason in told.new(element.why):
+            tell(reason_sentence(say, reason), " " * _ID)
 
 
 def _worst(record: AuditRecord, say: Words) -> None:
@@ -139,7 +165,7 @@ def _worst(record: AuditRecord, say: Words) -> None:
         return
     element, row = worst
     click.echo()
-    click.echo(
+    tell(
         say(
             "cli.worst", element=element.id, id=row.id, difference=(row.difference, "m"), tied=tied_words(say, row),
             standing=standing_words(say, row),
@@ -152,60 +178,33 @@ def _completeness(record: AuditRecord, say: Words) -> None:
     if not rows:
         return
     click.echo()
-    click.echo(_styled(say("report.balance.title"), bold=True) + f"  {balance_note(say, record.quality)}")
+    click.echo(styled(say("report.balance.title"), bold=True))
+    tell(balance_note(say, record.quality), "  ")
     for row in rows:
         counts = say("cli.balance", required=row.required, found=row.found, missing=row.missing, surplus=row.surplus)
         click.echo(f"  {row.label:<28} {counts}  {row.word}")
         for note in row.notes:
-            click.echo(f"    {note}")
-
-
-def _findings(record: AuditRecord, say: Words) -> None:
-    table = record.findings
-    rows = list(finding_rows(record, say))
-    several = len(record.delivery.drawings) > 1
-    for severity in Severity:
-        names = sorted(set(table.name[table.severity == severity].tolist()))
-        for name in names:
-            of_name = [row for row in rows if row["name"] == name and row["severity"] == severity]
-            count = int(np.count_nonzero((table.name == name) & (table.severity == severity)))
-            rule = of_name[0]["rule"]
-            click.echo()
-            click.echo(
-                _styled(f"{rule} {name}", bold=True)
-                + f" ({say(f'cli.severity.{severity.value}')}): {say.count(count)}. {say(f'rules.{rule}.title')}"
-            )
-            for row in of_name[:_SHOWN]:
-                file = f"{printable(row['source'])} " if several else ""
-                click.echo(f"  {file}{_place(row['where'])}  {row['message']}")
-            if count > _SHOWN:
-                click.echo(f"  {say('cli.more', count=count - _SHOWN)}")
-            if severity is not Severity.NOTE:
-                click.echo(_wrapped(say(f"rules.{rule}.mend"), "  > "))
+            tell(note, "    ")
 
 
 def _unread(record: AuditRecord, say: Words) -> list[str]:
-    return [
-        f"{printable(source.path)}: {source_sentence(say, source)}"
-        for source in record.delivery.sources
-        if source.status in LOST
-    ]
+    return [_file_line(source, say) for source in record.delivery.sources if source.status in LOST]
+
+
+def _file_line(source: Source, say: Words) -> str:
+    """What became of a file; most sentences name it themselves."""
+    sentence, name = source_sentence(say, source), printable(source.path)
+    return sentence if sentence.startswith(name) else f"{name}: {sentence}"
 
 
 def _not_checked(record: AuditRecord, say: Words) -> None:
     lines = _unread(record, say)
-    lines += [
-        f"{printable(source.path)}: {source_sentence(say, source)}"
-        for source in record.delivery.sources
-        if source.status is SourceStatus.UNNAMED
-    ]
-    lines += sorted(
-        {
-            f"{printable(outcome.source)}: {outcome.name}: {outcome_because(say, outcome)}"
-            for outcome in record.outcomes
-            if outcome.because.opens and not outcome.helper
-        }
-    )
+    lines += [_file_line(source, say) for source in record.delivery.sources if source.status is SourceStatus.UNNAMED]
+    rules: dict[tuple[str, str], list[str]] = defaultdict(list)
+    for outcome in record.outcomes:
+        if outcome.because.opens and not outcome.helper:
+            rules[printable(outcome.source), outcome_because(say, outcome)].append(outcome.name)
+    lines += sorted(f"{source} ({', '.join(sorted(set(names)))}): {why}" for (source, why), names in rules.items())
     lines += sorted(
         {
             f"{printable(outcome.source)}: {aside_sentence(say, one)}"
@@ -216,27 +215,10 @@ def _not_checked(record: AuditRecord, say: Words) -> None:
     )
     if lines:
         click.echo()
-        click.echo(_styled(say("cli.not-checked"), bold=True))
+        click.echo(styled(say("cli.not-checked"), bold=True))
         for line in lines:
-            click.echo(f"  {line}")
-
-
-def _styled(text: str, **style: Any) -> str:  # noqa: ANN401 - click's own arguments
-    """Text with colour, unless the user asked for none (no-color.org) or the terminal knows none."""
-    plain = os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb"
-    return text if plain else click.style(text, **style)
+            tell(line, "  ", "    ")
 
 
 def _size(say: Words, value: float | None, unit: str) -> str:
     return "–" if value is None else say.quantity(value, unit)
-
-
-def _place(where: list[float] | None) -> str:
-    return "" if where is None else "({})".format("; ".join(f"{value:.4f}" for value in where))
-
-
-def _wrapped(text: str, indent: str) -> str:
-    import textwrap  # noqa: PLC0415
-
-    width = min(shutil.get_terminal_size((_WIDTH, 24)).columns, 120)
-    return textwrap.fill(text, width, initial_indent=indent, subsequent_indent=" " * len(indent))

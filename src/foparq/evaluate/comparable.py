@@ -3,7 +3,7 @@
 
 from foparq.evaluate.balance import Balance, Incomparable
 from foparq.evaluate.evidence import Evidence, Judgement, judged
-from foparq.evaluate.quality import ElementStatus, Reason, because
+from foparq.evaluate.quality import ElementStatus, Reason, because, some
 from foparq.evaluate.tally import where_broken
 from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
@@ -13,7 +13,7 @@ def gap_reasons(rows: tuple[Balance, ...], name: str, gaps: tuple[Incomparable, 
     """Reasons for the classes that could not be compared."""
     labels = {gap: [row.label for row in rows if row.gap is gap] for gap in gaps}
     return tuple(
-        because(f"features.{gap.value}", element=name, classes=known[:10], n=len(known))
+        because(f"features.{gap.value}", element=name, classes=some(known), n=len(known))
         for gap, known in labels.items()
         if known
     )
@@ -73,4 +73,4 @@ def unmapped(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:
         return ()
     layers = [layer for layer, _ in counts.unmapped]
     items = sum(count for _, count in counts.unmapped)
-    return (because("features.unmapped", element=name, layers=layers[:10], n=len(layers), items=items),)
+    return (because("features.unmapped", element=name, layers=some(layers), n=len(layers), items=items),)

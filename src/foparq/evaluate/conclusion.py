@@ -5,7 +5,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 from foparq.evaluate.evidence import Evidence, named_parts
-from foparq.evaluate.quality import Element, QualityReport, Reason, Verdict, because
+from foparq.evaluate.quality import Element, QualityReport, Reason, Verdict, because, some
 from foparq.evaluate.tally import where_broken
 from foparq.evaluate.verdict import crashes, lost_files
 from foparq.findings.because import Because
@@ -42,7 +42,7 @@ def _not_run(evidence: Evidence) -> list[Reason]:
         items |= dict.fromkeys(f"{one.item} ({one.layer})" for one in outcome.aside if one.open)
     why = [because(f"files.{reason}", files=sorted(places[reason])) for reason in sorted(places)]
     if items:
-        why.append(because("files.unfit", items=list(items)[:_SHOWN], n=len(items)))
+        why.append(because("files.unfit", items=some(list(items), _SHOWN), n=len(items)))
     return why
 
 

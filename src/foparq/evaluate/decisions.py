@@ -9,10 +9,10 @@ import numpy as np
 from foparq.evaluate.balance import Balance, Incomparable, balances, decision_on
 from foparq.evaluate.comparable import doubtful
 from foparq.evaluate.evidence import Evidence
-from foparq.evaluate.quality import Reason, because
+from foparq.evaluate.quality import Reason, because, some
 from foparq.findings.counts import FeatureCounts, Listed
 from foparq.model.statements import Confirmation, Decision
-from foparq.names import folded, of_kind
+from foparq.names import folded, nearest, of_kind
 from foparq.profile.elements import CommissionSpec, OmissionSpec
 from foparq.profile.schema import Profile
 
@@ -36,7 +36,9 @@ def wrong_decision(profile: Profile, evidence: Evidence) -> WrongDecision | None
     seen: set[tuple[str, str]] = set()
     for one in decisions:
         if one.element not in known:
-            return WrongDecision("element", {"value": one.element, "known": ", ".join(known) or "–"})
+            return WrongDecision(
+                "element", {"value": one.element, "known": ", ".join(nearest(one.element, known)) or "–"}
+            )
         key = (of_kind(one.feature_class), folded(one.facade))
         if key in seen:
             return WrongDecision("twice", {"key": _label(one)})
@@ -48,7 +50,7 @@ def wrong_decision(profile: Profile, evidence: Evidence) -> WrongDecision | None
     for one in decisions:
         row = next((row for row in rows if decision_on(row, [one]) is not None), None)
         if row is None:
-            labels = "; ".join(row.label for row in rows)
+            labels = "; ".join(nearest(_label(one), [row.label for row in rows]))
             return WrongDecision("unknown", {"key": _label(one), "known": labels or "–"})
         low, high = row.deciding
         if not low <= one.counted <= high:
@@ -94,14 +96,14 @@ def interval(
         because("reading.counts", label=row.label, low=row.counted[0], high=row.counted[1], listed=row.required)
         for row in rows[:10]
     )
-    fields = {"classes": named[:10], "n": len(named), "readings": readings, "elements": list(asking)}
+    fields = {"classes": some(named), "n": len(named), "readings": readings, "elements": list(asking)}
     return because(message, **fields, ask=_asked(rows[0], asking[-1]), **said)
 
 
 def placed(rows: Iterable[Balance], name: str) -> tuple[Reason, ...]:
     """What is said of features that were looked for where they are listed, as remarks."""
     absent = [id_ for row in rows for id_ in row.placed.absent]
-    return (because("features.absent", element=name, ids=absent[:20], n=len(absent)),) if absent else ()
+    return (because("features.absent", element=name, ids=some(absent, 20), n=len(absent)),) if absent else ()
 
 
 def elsewhere(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 from foparq.evaluate.measures import measures
-from foparq.evaluate.quality import Element, ElementStatus, Reason, Residuals, because
+from foparq.evaluate.quality import Element, ElementStatus, Reason, Residuals, because, some
 from foparq.findings.because import Because
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.outcome import Outcome
@@ -128,14 +128,14 @@ def unseen(evidence: Evidence, name: str) -> tuple[Reason, ...]:
         why.append(because("unseen.file", element=name, files=lost))
     for drawing in evidence.delivery.drawings:
         if bombs := sorted({bomb.block for bomb in drawing.reading.bombs}):
-            why.append(because("unseen.block", element=name, file=drawing.path, blocks=bombs[:5], n=len(bombs)))
+            why.append(because("unseen.block", element=name, file=drawing.path, blocks=some(bombs, 5), n=len(bombs)))
         if repairs := len(drawing.reading.repairs):
             why.append(because("unseen.repaired", element=name, file=drawing.path, n=repairs))
         # Blocks that are not taken apart are told by name above.
         if hidden := hidden_parts(drawing, but={SkippedReason.BLOCK_BOMB}):
             kinds = [kind for kind, _ in hidden]
             n = sum(count for _, count in hidden)
-            why.append(because("unseen.skipped", element=name, file=drawing.path, kinds=kinds[:5], n=n))
+            why.append(because("unseen.skipped", element=name, file=drawing.path, kinds=some(kinds, 5), n=n))
     return tuple(why)
 
 
@@ -157,7 +157,7 @@ def hidden_parts(part: Part, *, but: Collection[SkippedReason] = ()) -> list[tup
 
 
 def named_parts(part: Part) -> list[str]:
-    """The same with their first handles: ``"1 × LINE (2F)"``, ``"9 × MLINE (30, 31 …)"``."""
+    """The same with their first handles: ``"1 × LINE (2F)"``, ``"9 × MLINE (30, 31, +7)"``."""
     handles: dict[str, list[str]] = defaultdict(list)
     if isinstance(part, Drawing):
         for skipped in part.reading.skipped:
@@ -167,8 +167,9 @@ def named_parts(part: Part) -> list[str]:
 
 
 def _first(handles: Sequence[str], n: int) -> str:
-    told = ", ".join(handles[:_HANDLES])
-    return f" ({told}{' …' if n > len(handles[:_HANDLES]) else ''})" if told else ""
+    told = handles[:_HANDLES]
+    rest = [f"+{n - len(told)}"] if n > len(told) else []
+    return f" ({', '.join([*told, *rest])})" if told else ""
 
 
 def _finite(value: float) -> bool:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The quality report as records: elements after ISO 19157, and the verdict."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -32,7 +33,7 @@ class Reason:
     """A sentence to be made: message id in the ``evaluate`` catalogue and what it names.
 
     Fields that are lengths are pairs (value, unit) so that every language writes them its own way. A field may be a
-    reason itself, or a tuple of reasons.
+    reason itself, a tuple of reasons, or a list of names with a reason behind them, see :func:`some`.
     """
 
     message: str
@@ -42,6 +43,20 @@ class Reason:
 def because(message: str, **fields: object) -> Reason:
     """Reason of a message id and the values it names."""
     return Reason(message=message, fields=tuple(fields.items()))
+
+
+def some(names: Sequence[object], most: int = 10, total: int | None = None) -> list[object]:
+    """The first of many names, and behind them a reason that says how many more there are.
+
+    Parameters
+    ----------
+    most : int
+        Names that are told.
+    total : int, optional
+        How many there are, where not all are named.
+    """
+    rest = (len(names) if total is None else total) - min(len(names), most)
+    return [*names[:most], because("list.more", n=rest)] if rest > 0 else list(names)
 
 
 class Standing(StrEnum):

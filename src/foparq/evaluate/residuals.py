@@ -13,7 +13,7 @@ from foparq.accuracy.normality import normal_scores
 from foparq.accuracy.outliers import most_outliers, outliers
 from foparq.columns import Reals, Texts
 from foparq.evaluate.evidence import Evidence, Judgement, judged
-from foparq.evaluate.quality import ElementStatus, Reason, Residual, Residuals, Standing, because
+from foparq.evaluate.quality import ElementStatus, Reason, Residual, Residuals, Standing, because, some
 from foparq.evaluate.tied import Tied
 from foparq.model.tables import Checkpoints, Distances
 from foparq.profile.elements import AXES
@@ -124,7 +124,7 @@ def _outlying(residuals: Residuals, name: str, limit: float | None) -> tuple[Rea
     if not ids or residuals.rest is None:
         return ()
     fields = {
-        "element": name, "n": residuals.n - len(ids), "ids": [*ids[:_NAMED], *(["…"] if len(ids) > _NAMED else [])],
+        "element": name, "n": residuals.n - len(ids), "ids": some(ids, _NAMED),
         "significance": (residuals.significance, "1"), "value": (residuals.rest, "m"),
     }  # fmt: skip
     if limit is None:

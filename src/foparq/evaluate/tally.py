@@ -11,7 +11,7 @@ import numpy as np
 from foparq.columns import Index, union
 from foparq.evaluate.evidence import Evidence, Judgement, judged, unseen
 from foparq.evaluate.measures import measure_counting
-from foparq.evaluate.quality import ElementStatus, Reason, because
+from foparq.evaluate.quality import ElementStatus, Reason, because, some
 from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, Status
 from foparq.profile.elements import ElementSpec
@@ -117,7 +117,7 @@ def unfit_remark(found: Tally, name: str) -> tuple[Reason, ...]:
     """Items that the rules could not work with and nobody found at fault, as a remark."""
     if not found.unfit:
         return ()
-    return (because("checks.unfit", element=name, items=list(found.unfit[:_ITEMS]), n=len(found.unfit)),)
+    return (because("checks.unfit", element=name, items=some(found.unfit, _ITEMS), n=len(found.unfit)),)
 
 
 def undeclared_reasons(found: Tally, name: str) -> tuple[Reason, ...]:

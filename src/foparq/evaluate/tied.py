@@ -10,7 +10,7 @@ from foparq.accuracy.differences import differences
 from foparq.accuracy.too_good import too_good
 from foparq.columns import Index, Reals, Texts
 from foparq.evaluate.evidence import Evidence
-from foparq.evaluate.quality import Reason, because
+from foparq.evaluate.quality import Reason, because, some
 from foparq.findings.because import Because
 from foparq.findings.ties import DistanceTies, Ends, Lies, PointTies
 from foparq.match.causes import Cause
@@ -205,7 +205,7 @@ def _not_of_drawing(distances: Distances, ties: DistanceTies, name: str) -> tupl
 
 def _naming(message: str, name: str, ids: Texts, **fields: object) -> Reason:
     """Reason that names the first of some ids, and how many there are."""
-    shown = [*map(str, ids[:_SHOWN]), *(["…"] if len(ids) > _SHOWN else [])]
+    shown = some([*map(str, ids[:_SHOWN])], _SHOWN, len(ids))
     return because(message, element=name, ids=shown, n=len(ids), **fields)
 
 

@@ -10,7 +10,7 @@ from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reaso
 from foparq.evaluate.remarks import basis, deciding, remarks_on
 from foparq.evaluate.scale import scale_doubts
 from foparq.findings.outcome import Status
-from foparq.model.delivery import SourceStatus
+from foparq.model.delivery import Source, SourceStatus
 from foparq.model.drawing import Drawing
 from foparq.profile.elements import results_of
 from foparq.profile.schema import Profile
@@ -36,8 +36,8 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     failed = [element for element in required if element.status is ElementStatus.FAIL]
     opened = [element for element in required if element.status in _OPEN]
     doubts = _together(deciding(element) for element in opened) + lost_files(evidence) + crashes(evidence)
-    # Numbers of a drawing in the wrong unit or plane follow from that, and say nothing themselves.
-    doubts.sort(key=lambda reason: reason.message not in _STATEMENTS)
+    # What a file that is not there, or a wrong unit or plane, does to the numbers says nothing itself.
+    doubts.sort(key=lambda reason: (reason.message not in _LOST.values(), reason.message not in _STATEMENTS))
     if not required:
         doubts.append(because("verdict.nothing-required"))
     beside: list[Sequence[Reason]] = [remarks_on(element, deciding(element)) for element in opened]
@@ -130,8 +130,19 @@ def lost_files(evidence: Evidence) -> list[Reason]:
     return [
         because(message, files=files)
         for status, message in _LOST.items()
-        if (files := [source.path for source in evidence.delivery.sources if source.status is status])
+        if (files := _named([source for source in evidence.delivery.sources if source.status is status]))
     ]
+
+
+def _named(sources: Sequence[Source]) -> Sequence[object]:
+    """Paths of files, each with the one in the delivery that is named most like it, where it is not there."""
+    likes = [str(dict(source.fields).get("other", "")) for source in sources if source.status is SourceStatus.MISSING]
+    if not any(likes):
+        return [source.path for source in sources]
+    return tuple(
+        because("file.like", file=source.path, other=like) if like else because("file.alone", file=source.path)
+        for source, like in zip(sources, likes, strict=True)
+    )
 
 
 def crashes(evidence: Evidence) -> list[Reason]:

@@ -6,7 +6,7 @@ from enum import StrEnum
 
 from foparq.model.drawing import Drawing, Skipped
 from foparq.model.part import Part
-from foparq.model.statements import Confirmation, Decision
+from foparq.model.statements import Confirmation, Contract, Decision
 from foparq.model.tables import Checkpoints, Distances, FeatureList
 
 
@@ -51,6 +51,7 @@ class Delivery:
     features: FeatureList | None = None
     confirmed: tuple[Confirmation, ...] = ()  #: in the order of the manifest
     decisions: tuple[Decision, ...] = ()  #: likewise
+    contract: Contract | None = None  #: none where the manifest states none
 
     @property
     def drawings(self) -> tuple[Drawing, ...]:

@@ -17,6 +17,18 @@ class Confirmation:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Contract:
+    """Under which contract a delivery was made, as its manifest states it; ``""`` where it states nothing."""
+
+    process: str = ""  #: number of the administrative process
+    contract: str = ""  #: number of the contract
+    contractor: str = ""  #: who delivers
+    responsible: str = ""  #: person who answers for the delivery, with registration
+    revision: str = ""
+    date: str = ""  #: of delivery, ISO 8601
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Decision:
     """How many features of a class are drawn, decided by a person where linework cannot tell."""
 

@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from pydantic import BaseModel, ValidationError
 
 from foparq.errors import QuantityError, UsageError
+from foparq.names import nearest
 from foparq.profile.schema import CheckSpec, LineworkSpec, Profile, ReadingSpec
 from foparq.units import parse_any_quantity
 
@@ -14,6 +15,7 @@ _EXAMPLE = "undershoot.reach=10mm"
 _SECTIONS: Mapping[str, tuple[type[BaseModel], str]] = {
     "reading": (ReadingSpec, "reading.blocks=skip"), "linework": (LineworkSpec, "linework.alongside=10deg")
 }  # fmt: skip
+_SHOWN = 8  #: tolerances that a message names, nearest first
 
 
 def choose(profile: Profile, names: Collection[str], helpers: Collection[str] = ()) -> Profile:
@@ -76,7 +78,10 @@ def _with_setting(profile: Profile, setting: str) -> Profile:
             checks.append(spec)
     if not changed:
         known = sorted(f"{spec.rule}.{tolerance}" for spec in profile.checks for tolerance in spec.tolerances)
-        raise UsageError("usage.setting-unknown", value=target.strip(), known=", ".join(known), example=_EXAMPLE)
+        near = nearest(target.strip(), known)
+        shown = ", ".join([*near[:_SHOWN], *([f"+{len(near) - _SHOWN}"] if len(near) > _SHOWN else [])])
+        example = f"{near[0]}={_EXAMPLE.partition('=')[2]}" if near else _EXAMPLE
+        raise UsageError("usage.setting-unknown", value=target.strip(), known=shown, example=example)
     return profile.model_copy(update={"checks": tuple(checks)})
 
 
@@ -84,7 +89,10 @@ def _with_section(profile: Profile, section: str, key: str, text: str, setting: 
     model, example = _SECTIONS[section]
     if key not in model.model_fields:
         raise UsageError(
-            "usage.setting-unknown", value=f"{section}.{key}", known=", ".join(model.model_fields), example=example
+            "usage.setting-unknown",
+            value=f"{section}.{key}",
+            known=", ".join(nearest(key, model.model_fields)),
+            example=example,
         )
     try:
         changed = model.model_validate({**dict(getattr(profile, section)), key: text})

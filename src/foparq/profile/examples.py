@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Right examples for the keys of profiles and manifests."""
+"""Right lines of profiles and manifests, for messages."""
 
-#: a right example for a key, shown when its value is wrong
+#: a right example for a key, shown when its value is wrong or missing
 EXAMPLES = {
+    "contract": 'contract = "12/2026"',
+    "contractor": 'contractor = "name of the office"',
+    "date": "date = 2026-11-20",
+    "process": 'process = "01234.000567/2026-89"',
+    "responsible": 'responsible = "name, registration"',
+    "revision": 'revision = "2"',
     "coarsest": 'coarsest = "1:200"',
     "drawing": "[[drawing]]",
     "apart": 'apart = "1 mm @ scale"',
@@ -22,7 +28,6 @@ EXAMPLES = {
     "class": 'class = "window"',
     "confirmed": "[[confirmed]]",
     "counted": "counted = 12",
-    "date": "date = 2026-11-30",
     "decision": "[[decision]]",
     "element": 'element = "Q5"',
     "kind": 'kind = "omission"',

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from foparq.errors import ProfileError
+from foparq.names import nearest
 from foparq.profile.letters import odd_letters, shown_letters
 from foparq.resources import shipped
 
@@ -56,7 +57,7 @@ def find_profile(
     with contextlib.suppress(OSError, ValueError):  # of a name that no file can have
         if path is not None and path.is_file():
             return path
-    fields = {"value": name[:_SHOWN], "known": ", ".join(shipped_profiles()), "example": _EXAMPLE}
+    fields = {"value": name[:_SHOWN], "known": ", ".join(nearest(name, shipped_profiles())), "example": _EXAMPLE}
     if place is not None:
         raise ProfileError("profile.unknown-base", **fields, **place)
     if odd := odd_letters(name):

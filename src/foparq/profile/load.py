@@ -4,16 +4,17 @@
 import hashlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, get_args
 
 from pydantic import BaseModel, ValidationError
 
 from foparq.errors import ManifestError, ProfileError, QuantityError, UsageError
+from foparq.names import nearest
 from foparq.profile.claims import refuse_false_claims, refuse_false_elements
 from foparq.profile.elements import ElementSpec
 from foparq.profile.examples import EXAMPLES
 from foparq.profile.find import find_profile, is_shipped, shipped_profiles
-from foparq.profile.manifest import Manifest
+from foparq.profile.manifest import Language, Manifest
 from foparq.profile.schema import CheckSpec, Profile, ProfileFile
 from foparq.profile.toml_text import TomlText, read_toml
 
@@ -82,7 +83,7 @@ def load_profile(name: str, beside: Path | None = None, within: Path | None = No
                 file=str(path),
                 line=text.line((key,)),
                 key=key,
-                example=", ".join(sorted(_TOP_KEYS)),
+                example=", ".join(nearest(key, sorted(_TOP_KEYS))),
             )
     own = [part for part in (text, base) if part is not None and not is_shipped(part.path)]
     for part in own:
@@ -132,6 +133,16 @@ def load_manifest(path: Path) -> Manifest:
     return _validated(Manifest, text.data, text, ManifestError)
 
 
+def stated_language(path: Path) -> str | None:
+    """Language that a manifest asks for, whatever else may be wrong in it; ``None`` if it names none that is known."""
+    try:
+        delivery = read_toml(path, ManifestError).data.get("delivery")
+    except ManifestError:
+        return None
+    language = delivery.get("language") if isinstance(delivery, Mapping) else None
+    return language if language in get_args(Language) else None
+
+
 def _checks(text: TomlText) -> list[CheckSpec]:
     made = []
     for number, table in enumerate(_tables(text, "check")):
@@ -149,7 +160,8 @@ def _elements(text: TomlText) -> list[ElementSpec]:
         known = ElementSpec.KINDS.get(kind) if isinstance(kind, str) else None
         if kind is not None and known is None:
             place = {"file": str(text.path), "line": text.line(("element", number, "kind"))}
-            raise ProfileError("profile.unknown-kind", value=kind, known=", ".join(sorted(ElementSpec.KINDS)), **place)
+            kinds = ", ".join(nearest(str(kind), sorted(ElementSpec.KINDS)))
+            raise ProfileError("profile.unknown-kind", value=kind, known=kinds, **place)
         made.append(_validated(known or ElementSpec, table, text, ProfileError, ("element", number)))
     return made
 
@@ -189,6 +201,8 @@ def _validated(
         place = _place_of(data, error.fields.get("value"))
         known = str(place[-1]) if place else ""
         example = EXAMPLES.get(known, "").partition(" = ")[2].strip('"') or error.fields.get("example", "")
+        if error.message == "quantity.unknown-unit":
+            example = f'{known} = "{error.fields["example"]}"'
         fields = {**error.fields, "example": example, "file": str(text.path), "line": text.line((*prefix, *place))}
         raise kind(f"{error.message}-at", key=".".join(map(str, place)), **fields) from None
     except ValidationError as errors:
@@ -197,7 +211,7 @@ def _validated(
         key = str(next((part for part in reversed(place) if isinstance(part, str)), ""))
         fields = {"file": str(text.path), "line": text.line((*prefix, *place)), "key": key}
         if first["type"] == "extra_forbidden":
-            raise kind("toml.unknown-key", example=", ".join(_keys(model, place)), **fields) from None
+            raise kind("toml.unknown-key", example=", ".join(nearest(key, _keys(model, place))), **fields) from None
         if first["type"] == "missing":
             raise kind("toml.missing-key", example=EXAMPLES.get(key, f"{key} = ..."), **fields) from None
         example = EXAMPLES.get(key, str(first["msg"]))

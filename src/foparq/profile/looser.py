@@ -184,7 +184,7 @@ def _covers(own: Sequence[str], other: Sequence[str]) -> bool:
 
 def _layers(spec: CheckSpec) -> tuple[str, ...]:
     patterns = [*spec.layers, *(f"{name}: {pattern}" for name, several in spec.on.items() for pattern in several)]
-    return (*patterns[:_PATTERNS], *(["…"] if len(patterns) > _PATTERNS else [])) or ("–",)
+    return (*patterns[:_PATTERNS], *([f"+{len(patterns) - _PATTERNS}"] if len(patterns) > _PATTERNS else [])) or ("–",)
 
 
 # --- how drawings are read -------------------------------------------------------------------------------------------

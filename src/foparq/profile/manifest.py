@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The delivery manifest ``delivery.toml``, typed. Every section is optional; what is absent is not assessed."""
 
+import datetime as dt
+import re
 from collections.abc import Mapping
-from datetime import date, datetime
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
@@ -18,7 +19,11 @@ def _known_unit(text: object) -> str:
 
 #: no building is larger than its planet
 Ordinate = Annotated[float, Field(ge=-1e8, le=1e8, allow_inf_nan=False)]
+Language = Literal["pt-BR", "en"]
 Triple = tuple[Ordinate, Ordinate, Ordinate]
+_LONGEST = 200  #: letters of an entry on the first page
+_ISO_DAY = re.compile(r"\d{4}-\d{2}-\d{2}")
+_FIRST_YEAR, _LAST_YEAR = 1950, 2200  #: of a delivery: others are slips of the pen
 UnitName = Annotated[str, BeforeValidator(_known_unit)]
 
 
@@ -29,7 +34,7 @@ class DeliverySection(Strict):
     profile: str = "et-doc-foparq-a"  #: a shipped name, or a file in the folder
     scale: ScaleText | None = None
     crs: str = "local"
-    language: Literal["pt-BR", "en"] | None = None
+    language: Language | None = None
 
 
 class DrawingSection(Strict):
@@ -68,15 +73,43 @@ Said = Annotated[str, BeforeValidator(_said)]
 
 
 def _day(given: object) -> str:
-    """A day as TOML writes it, or as text."""
-    if isinstance(given, date) and not isinstance(given, datetime):
-        return given.isoformat()
-    if given == "":
-        return ""
-    return date.fromisoformat(given if isinstance(given, str) else "").isoformat()
+    """Calendar day of a decision as text, ``""`` if none is stated."""
+    return "" if given == "" else _date(given).isoformat()
 
 
 Day = Annotated[str, BeforeValidator(_day)]
+
+
+def _entry(text: object) -> str:
+    """One line of a form; a number is taken as written."""
+    if isinstance(text, int) and not isinstance(text, bool):
+        text = str(text)
+    if not isinstance(text, str) or not text.strip() or not text.isprintable() or len(text) > _LONGEST:
+        raise ValueError("one line of text")
+    return text.strip()
+
+
+def _date(value: object) -> dt.date:
+    """Calendar day: a date of TOML, or its text; 3/12/2026 would be two days."""
+    if isinstance(value, str):
+        value = dt.date.fromisoformat(value) if _ISO_DAY.fullmatch(value) else None
+    if not isinstance(value, dt.date) or isinstance(value, dt.datetime) or not _FIRST_YEAR <= value.year <= _LAST_YEAR:
+        raise ValueError("a day")
+    return value
+
+
+Entry = Annotated[str, BeforeValidator(_entry)]
+
+
+class ContractSection(Strict):
+    """``[contract]``: under which contract the delivery was made."""
+
+    process: Entry = ""  #: number of the administrative process
+    contract: Entry = ""
+    contractor: Entry = ""
+    responsible: Entry = ""  #: person, with registration
+    revision: Entry = ""
+    date: Annotated[dt.date, BeforeValidator(_date)] | None = None  #: of delivery
 
 
 class ConfirmedSection(Strict):
@@ -112,6 +145,7 @@ class Manifest(Strict):
     distances: SurveySection | None = None
     confirmed: tuple[ConfirmedSection, ...] = ()
     decision: tuple[DecisionSection, ...] = ()
+    contract: ContractSection | None = None
     record: Mapping[str, Any] | None = None  #: descriptive record: kept, not assessed yet
     metadata: Mapping[str, Any] | None = None  #: kept, not assessed yet
     capture: Mapping[str, Any] | None = None  #: kept, not assessed yet

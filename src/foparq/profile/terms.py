@@ -15,6 +15,7 @@ from foparq.profile.load import load_profile
 from foparq.profile.looser import Looser, looser
 from foparq.profile.manifest import Manifest
 from foparq.profile.schema import Profile
+from foparq.profile.toml_text import read_toml
 from foparq.units import parse_scale
 
 _SHOWN = 80  #: letters of a name in the delivery that are told
@@ -90,7 +91,8 @@ def _scales(manifest: Manifest, path: Path, used: Profile, reviewer: Reviewer) -
     if delivery and theirs and parse_scale(delivery) != parse_scale(theirs):
         raise ManifestError("manifest.scale-differs", file=str(path), value=delivery, other=theirs)
     if (found := delivery or theirs) is None:
-        raise ManifestError("manifest.no-scale", file=str(path), line=1, key="delivery.scale", example='scale = "1:50"')
+        line = read_toml(path, ManifestError).line(("delivery",))
+        raise ManifestError("manifest.no-scale", file=str(path), line=line, key="scale", example='scale = "1:50"')
     return parse_scale(found), None
 
 

@@ -11,12 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from foparq.errors import UsageError
+from foparq.profile.examples import EXAMPLES
 
 _TABLE = re.compile(r"^\s*\[(?!\[)\s*(?P<path>[^\]]+?)\s*\]")
 _ARRAY = re.compile(r"^\s*\[\[\s*(?P<path>[^\]]+?)\s*\]\]")
 _KEY = re.compile(r"^\s*(?P<key>\"[^\"]*\"|'[^']*'|[A-Za-z0-9_.-]+)\s*=")
 _PLACE = re.compile(r"\(at line (\d+), column (\d+)\)")
 
+_NOT_TEXT = frozenset({"date", "counted"})  #: keys whose value is no text: quotes would not mend it
 _SHOWN = 80  #: characters of a wrong line that a message repeats
 _MOST_BYTES = 1_000_000
 _DEEPEST = 32  #: tables and arrays within each other
@@ -113,6 +115,8 @@ def _depth(data: object) -> int:
 def _quoted(line: str) -> str:
     """The line as it would be right, if all it lacks is quotes; else any right line."""
     key, equals, value = line.partition("=")
+    if key.strip() in _NOT_TEXT:
+        return EXAMPLES[key.strip()]
     value = value.split("#")[0].strip().strip("\"'“”").replace("\\", "/")
     plain = _KEY.match(line) is not None and value and not value.startswith(("[", "{"))
     return f'{key.strip()} = "{value[:_SHOWN]}"' if equals and plain else 'unit = "m"'

@@ -18,9 +18,9 @@ from foparq.model.delivery import Delivery, Source, SourceStatus
 from foparq.model.drawing import Drawing
 from foparq.model.items import Items, Role
 from foparq.model.plane import Plane, plane_of
-from foparq.model.statements import Decision
+from foparq.model.statements import Contract, Decision
 from foparq.model.tables import Checkpoints, Distances, FeatureList
-from foparq.profile.manifest import ConfirmedSection, DrawingSection, Manifest, TableSection
+from foparq.profile.manifest import ConfirmedSection, ContractSection, DrawingSection, Manifest, TableSection
 from foparq.profile.schema import Profile
 from foparq.read.guard.parent import guarded
 from foparq.read.guard.paths import inside, name_of
@@ -109,9 +109,18 @@ def read_delivery(
         title=manifest.delivery.title or root.resolve().name, sources=tuple(intake.sources),
         parts=tuple(intake.drawings), checkpoints=checkpoints, distances=distances, features=features,
         confirmed=confirmations,
+        contract=_contract(manifest.contract),
         decisions=tuple(Decision(**section.model_dump()) for section in manifest.decision),
     )  # fmt: skip
     return delivery, tuple(intake.crashes)
+
+
+def _contract(section: ContractSection | None) -> Contract | None:
+    if section is None:
+        return None
+    day = section.date.isoformat() if section.date else ""
+    made = Contract(**{**section.model_dump(exclude={"date"}), "date": day})
+    return made if made != Contract() else None
 
 
 def read_loose(

@@ -4,12 +4,13 @@
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import islice
 from pathlib import Path, PurePosixPath
 
 from foparq.errors import InputError, ManifestError, UnsafeError
 from foparq.model.delivery import Source, SourceStatus
 from foparq.model.drawing import Drawing
-from foparq.names import folded
+from foparq.names import folded, likeness, nearest
 from foparq.profile.schema import Profile
 from foparq.read.gis.companions import companions
 from foparq.read.guard.paths import MOST_FILES, alike, files_of, fit_to_read, name_of, sha256_of
@@ -17,6 +18,7 @@ from foparq.read.guard.paths import MOST_FILES, alike, files_of, fit_to_read, na
 Progress = Callable[[str], None]
 
 _LONGEST = 300  #: letters of a path that are told
+_LIKE = 0.6  #: of two names of files from which one may be a slip of the other
 _OUTPUT = frozenset({"audit"})  #: where ``foparq audit`` writes: not part of what was delivered
 
 
@@ -134,12 +136,27 @@ def identified(source: Source, path: Path, limit: int) -> Source:
         if (other := alike(path, folded)) is not None:
             named = "/".join(other.parts[-len(PurePosixPath(source.path).parts) :])
             fields, message = (*fields, ("other", name_of(named))), "read.missing-like"
+        elif (near := _named_like(path)) is not None:
+            folder = PurePosixPath(source.path).parent
+            fields, message = (*fields, ("other", name_of((folder / near).as_posix()))), "read.missing-near"
         return replace(source, status=SourceStatus.MISSING, error=message, fields=fields)
     try:
         size = fit_to_read(path, limit)
         return replace(source, sha256=sha256_of(path), bytes=size)
     except PermissionError:
         raise UnsafeError("read.no-permission", file=path.name) from None
+
+
+def _named_like(path: Path) -> str | None:
+    """Name of the file of that kind beside a path that is most like it, if any is."""
+    try:
+        names = sorted(one.name for one in islice(path.parent.iterdir(), MOST_FILES) if one.is_file())
+    except OSError:
+        return None
+    kind = [name for name in names if folded(PurePosixPath(name).suffix) == folded(path.suffix)]
+    stems = {PurePosixPath(name).stem: name for name in kind}
+    near = nearest(path.stem, stems)
+    return stems[near[0]] if near and likeness(path.stem, near[0]) >= _LIKE else None
 
 
 def refused(source: Source, name: str, message: str, fields: dict[str, object]) -> Source:

@@ -45,6 +45,9 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         "command": "check" if record.loose else "audit",
         "title": record.delivery.title,
         "language": record.language,
+        "contract": None
+        if record.delivery.contract is None
+        else {name: value or None for name, value in asdict(record.delivery.contract).items()},
         "verdict": None if record.loose else record.quality.verdict.value,
         "conclusion": _CONCLUSIONS[record.quality.verdict],
         "why": [_reason(words, reason) for reason in record.quality.why],
@@ -97,7 +100,7 @@ def _field(words: Words, value: object) -> object:
     """Field of a reason; reasons within it are written like reasons."""
     if isinstance(value, Reason):
         return _reason(words, value)
-    if isinstance(value, tuple) and any(isinstance(part, Reason) for part in value):
+    if isinstance(value, tuple | list) and any(isinstance(part, Reason) for part in value):
         return [_field(words, part) for part in value]
     return _value(value)
 

@@ -15,6 +15,7 @@ from lxml.builder import ElementMaker
 
 from foparq.evaluate.measures import measures
 from foparq.evaluate.quality import Element, ElementStatus, Reason, Residual, Verdict
+from foparq.report.contract import contract_line, responsible_party
 from foparq.report.record import AuditRecord
 from foparq.report.residuals import standing_words
 from foparq.report.sentences import detail_name, parameter_name, reason_sentence, specification
@@ -110,6 +111,7 @@ class _Report:
         party = _cit.CI_Organisation(_cit.name(_text(maker)))
         role = _cit.role(_code("CI_RoleCode", "processor", _cit))
         node.append(_cit.citedResponsibleParty(_cit.CI_Responsibility(role, _cit.party(party))))
+        node.extend(responsible_party(self.record, _cit, _text, _code))
         for name in (name for name in _BESIDE if name not in self.record.crashed):
             node.append(_cit.onlineResource(_cit.CI_OnlineResource(_cit.linkage(_text(name)))))
         return node
@@ -117,9 +119,9 @@ class _Report:
     def _abstract(self) -> str:
         verdict = self.words(f"evaluate.verdict.name.{self.record.quality.verdict.value}")
         key = "evaluate.xml.abstract-loose" if self.record.loose else "evaluate.xml.abstract"
-        opening = self.words(key, profile=self._specification(), verdict=verdict)
-        quality = self.record.quality
-        return " ".join([opening, *self._sentences(() if self.record.loose else (*quality.why, *quality.remarks))])
+        quality, contract = self.record.quality, contract_line(self.words, self.record)
+        opening = [self.words(key, profile=self._specification(), verdict=verdict), *([f"{contract}."] * bool(contract))]
+        return " ".join([*opening, *self._sentences(() if self.record.loose else (*quality.why, *quality.remarks))])
 
     def _specification(self) -> str:
         record = self.record
@@ -164,10 +166,9 @@ class _Report:
             f"{parameter_name(self.words, name)}: {self.words.quantity(value, unit)}"
             for name, value, unit in element.parameters
         ]
+        count = self.words.count
         for name, found, out_of in element.details:
-            parts.append(
-                f"{detail_name(self.words, element, name)}: {self.words.count(found)} / {self.words.count(out_of)}"
-            )
+            parts.append(f"{detail_name(self.words, element, name)}: {count(found)} / {count(out_of)}")
         if element.residuals is not None:
             parts += [self._residual(row) for row in element.residuals.rows[:_LISTED]]
         return "; ".join(parts)

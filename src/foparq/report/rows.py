@@ -8,14 +8,15 @@ from typing import Any
 import numpy as np
 
 from foparq.columns import Index, Reals
+from foparq.report.places import found_by, pasted
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import finding_sentences
 from foparq.report.words import Words
 
 #: of ``findings.jsonl`` and of the CSV, in order
 COLUMNS = (
-    "key", "rule", "name", "severity", "source", "layer", "item", "handle", "inserts", "other", "where", "size", "unit",
-    "limit", "message", "waived",
+    "key", "rule", "name", "severity", "source", "layer", "item", "handle", "inserts", "other", "other_layer", "where",
+    "size", "unit", "limit", "message", "waived", "paste", "cad", "qgis",
 )  # fmt: skip
 
 
@@ -39,15 +40,24 @@ def finding_columns(record: AuditRecord, words: Words | None = None) -> dict[str
     Returns
     -------
     dict
-        ``COLUMNS`` in order. ``where`` is ``[x, y, z]`` in file coordinates; ``None`` for what is not finite.
+        ``COLUMNS`` in order. ``where`` is ``[x, y, z]`` in file coordinates; ``None`` for what is not finite. ``paste``
+        is the same place as CAD takes it; ``cad`` and ``qgis`` find the item in AutoCAD and QGIS.
     """
     table, rows = record.findings, written_rows(record)
+    metres = {drawing.path: drawing.unit.metres for drawing in record.delivery.drawings}
+    sources = table.source[rows].tolist()
+    places = zip(table.place[rows].tolist(), sources, strict=True)
+    cad, qgis = found_by(record, rows)
     made: dict[str, Sequence[Any]] = {
         "where": _points(table.place[rows]),
         "other": [other or None for other in table.other[rows].tolist()],
         "size": _numbers(table.size[rows]),
         "limit": _numbers(table.limit[rows]),
         "message": finding_sentences(words or Words(record.language), table, rows),
+        "paste": [pasted(place, metres.get(source)) for place, source in places],
+        "cad": cad,
+        "qgis": qgis,
+        "other_layer": [layer or None for layer in table.other_layer[rows].tolist()],
         "waived": table.waived[rows].astype(bool).tolist(),
     }
     return {name: made[name] if name in made else getattr(table, name)[rows].tolist() for name in COLUMNS}

@@ -18,6 +18,7 @@ from foparq.findings.table import Findings
 from foparq.model.delivery import Source
 from foparq.model.drawing import Repair, Skipped
 from foparq.names import of_kind
+from foparq.report.manual import plain
 from foparq.report.record import AuditRecord
 from foparq.report.rule_texts import has_part
 from foparq.report.words import Words, printable
@@ -37,8 +38,9 @@ def finding_sentences(words: Words, findings: Findings, rows: Index) -> list[str
     -------
     list of str, k
         ``rules.CODE.finding``, or ``finding_other`` where a rule has that for findings with a second item, with
-        ``size``, ``limit`` (quantities), ``layer``, ``item``, ``handle``, ``other``, ``inserts``, ``source`` and
-        ``told`` (a repair) filled in.
+        ``size``, ``limit`` (quantities), ``layer``, ``item``, ``handle``, ``other``, ``other_layer``, ``inserts``,
+        ``source`` and ``told`` (a repair) filled in. ``handle`` names the item as ``other`` names the other one: with
+        the way through the blocks, and by its number where the file has none.
 
     Raises
     ------
@@ -93,6 +95,8 @@ def _column(words: Words, findings: Findings, field: str, rows: Index) -> list[s
     if field not in _FIELDS:
         raise KeyError(field)
     values = getattr(findings, field)[rows].tolist()
+    if field == "handle":
+        values = [item or handle for item, handle in zip(findings.item[rows].tolist(), values, strict=True)]
     if field == "told":
         return [_mended(words, value) for value in values]
     if field in _TEXTS:
@@ -101,7 +105,7 @@ def _column(words: Words, findings: Findings, field: str, rows: Index) -> list[s
     return [quantity(value, unit) for value, unit in zip(values, findings.unit[rows].tolist(), strict=True)]
 
 
-_TEXTS = frozenset({"layer", "item", "handle", "other", "inserts", "source"})
+_TEXTS = frozenset({"layer", "item", "handle", "other", "other_layer", "inserts", "source"})
 _FIELDS = _TEXTS | {"size", "limit", "told"}
 
 
@@ -125,7 +129,7 @@ def rule_meaning(words: Words, code: str) -> str:
     The manual is the docstring of the rule; catalogues of other languages translate it as ``rules.CODE.manual``.
     """
     manual = words.find(f"rules.{code}.manual") or _manuals()[code]
-    return " ".join(manual.strip().split("\n\n", 1)[0].split())
+    return plain(" ".join(manual.strip().split("\n\n", 1)[0].split()))
 
 
 @cache
@@ -179,6 +183,8 @@ def _told(words: Words, value: object) -> object:
         return reason_sentence(words, value)
     if isinstance(value, tuple) and value and all(isinstance(part, Reason) for part in value):
         return words.joined(reason_sentence(words, part) for part in value)
+    if isinstance(value, list) and value and isinstance(value[-1], Reason):  # the first of many names
+        return f"{words.listed(value[:-1])} {reason_sentence(words, value[-1])}"
     return value
 
 

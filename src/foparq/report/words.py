@@ -79,6 +79,10 @@ class Words:
         made = list(sentences)
         return (" " if all(text.endswith(".") for text in made) else "; ").join(made)
 
+    def listed(self, values: Iterable[object]) -> str:
+        """Values in one line, parted by commas."""
+        return _write(self, list(values))
+
     def error(self, error: FoparqError) -> str:
         """Sentence of an error."""
         return self(f"errors.{error.message}", **error.fields)
@@ -152,6 +156,18 @@ def printable(text: str) -> str:
     return text if text.isprintable() else "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in text)
 
 
+def language_named(text: str) -> str | None:
+    """Language of a tag or locale: ``"pt"``, ``"pt_BR.UTF-8"``, ``"en-GB"``; ``None`` if it is none that is spoken.
+
+    Examples
+    --------
+    >>> language_named("pt"), language_named("EN_us"), language_named("de")
+    ('pt-BR', 'en', None)
+    """
+    tag = text.strip().replace("_", "-").partition(".")[0].partition("@")[0].partition("-")[0].casefold()
+    return {"pt": "pt-BR", "en": "en", "c": "en", "posix": "en"}.get(tag)
+
+
 def language_of(asked: str | None = None) -> str:
     """Language to speak: as asked, else the locale's, else English.
 
@@ -161,13 +177,8 @@ def language_of(asked: str | None = None) -> str:
         ``--lang`` or the manifest's ``language``.
     """
     candidates = [asked or "", *(os.environ.get(name, "") for name in ("LC_ALL", "LC_MESSAGES", "LANGUAGE", "LANG"))]
-    for candidate in candidates:
-        start = candidate.replace("_", "-").casefold()
-        if start.startswith("pt"):
-            return "pt-BR"
-        if start.startswith(("en", "c.", "posix")) or start == "c":
-            return "en"
-    return "en"
+    spoken = (language_named(part) for candidate in candidates for part in candidate.split(":"))
+    return next((language for language in spoken if language), "en")
 
 
 @cache

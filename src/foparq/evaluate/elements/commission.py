@@ -12,7 +12,7 @@ from foparq.evaluate.comparable import (
 from foparq.evaluate.decisions import decided, elsewhere, interval
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
-from foparq.evaluate.quality import Element, ElementStatus, because
+from foparq.evaluate.quality import Element, ElementStatus, because, some
 from foparq.profile.elements import CommissionSpec
 
 _MEASURE = "3"
@@ -85,7 +85,7 @@ def _judge(spec: CommissionSpec, evidence: Evidence, every: tuple[Balance, ...],
     }  # fmt: skip
     if _exceeds(surplus, required, limit):
         return judged(
-            ElementStatus.FAIL, because("commission.fail", **fields, classes=[row.label for row in worst[:10]]), *gaps
+            ElementStatus.FAIL, because("commission.fail", **fields, classes=some([row.label for row in worst])), *gaps
         )
     several = []
     if _exceeds(most := sum(row.surplus_most for row in known), required, limit):

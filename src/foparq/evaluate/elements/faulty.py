@@ -3,7 +3,7 @@
 
 from foparq.evaluate.evidence import Evidence, Judgement, Parameters, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
-from foparq.evaluate.quality import Element, ElementStatus, because
+from foparq.evaluate.quality import Element, ElementStatus, because, some
 from foparq.evaluate.tally import (
     Tally,
     broken_reasons,
@@ -97,7 +97,9 @@ def _judge(spec: FaultyRateSpec, evidence: Evidence, found: Tally, limit: float)
         return judged(ElementStatus.NOT_ASSESSED, absent, *broken, *remarks)
     doubts = [*broken, *unseen(evidence, name)]
     if (found.faulty + found.aside) / found.checked > limit:
-        doubts.append(because("faulty.aside", aside=found.aside, items=list(found.unjudged[:10]), **fields))
+        doubts.append(
+            because("faulty.aside", aside=found.aside, items=some(found.unjudged, total=found.aside), **fields)
+        )
     if doubts:
         return judged(ElementStatus.UNDECIDED, *doubts, *remarks)
     return judged(ElementStatus.PASS, because("faulty.pass", **fields), *remarks)

@@ -4,7 +4,7 @@
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.measures import Measure, measure_counting, measures
-from foparq.evaluate.quality import Element, ElementStatus, because
+from foparq.evaluate.quality import Element, ElementStatus, because, some
 from foparq.evaluate.tally import (
     Tally,
     broken_reasons,
@@ -88,7 +88,9 @@ def _judge(spec: FoundRateSpec, evidence: Evidence, found: Tally, value: float, 
         return judged(ElementStatus.NOT_ASSESSED, absent, *broken)
     doubts = [*broken, *hidden]
     if found.aside and value + (found.aside if unit == "items" else found.aside / found.checked) > limit:
-        doubts.append(because("found.aside", aside=found.aside, items=list(found.unjudged[:10]), **fields))
+        doubts.append(
+            because("found.aside", aside=found.aside, items=some(found.unjudged, total=found.aside), **fields)
+        )
     if doubts:
         return judged(ElementStatus.UNDECIDED, *doubts)
     return judged(ElementStatus.PASS, because("found.pass", **fields), *unfit_remark(found, spec.id))

@@ -12,7 +12,7 @@ from foparq.evaluate.comparable import (
 from foparq.evaluate.decisions import decided, elsewhere, interval, placed
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
-from foparq.evaluate.quality import Element, ElementStatus, Reason, because
+from foparq.evaluate.quality import Element, ElementStatus, Reason, because, some
 from foparq.profile.elements import OmissionSpec
 
 _MEASURE = "7"
@@ -122,5 +122,5 @@ def _open(known: list[Balance], evidence: Evidence, fields: dict[str, object]) -
         told = {"least": least, **fields}
         why.append(interval("omission.interval", str(fields["element"]), evidence, several, told))
     if layers := sorted({layer for row in short for layer in row.hidden}):
-        why.append(because("omission.hidden-layers", layers=layers[:10], n=len(layers), **fields))
+        why.append(because("omission.hidden-layers", layers=some(layers), n=len(layers), **fields))
     return tuple(why)

@@ -10,6 +10,7 @@ from pyogrio.errors import GeometryError
 from foparq.errors import ManifestError, UnreadableError
 from foparq.model.drawing import Skipped, SkippedReason
 from foparq.model.items import Items
+from foparq.names import nearest
 from foparq.profile.schema import LimitsSpec
 from foparq.read.gis.crs import unit_of
 from foparq.read.gis.gpkg_curves import STRAIGHT, chords_of
@@ -130,12 +131,13 @@ def _wanted(path: Path, contents: Contents, wanted: tuple[str, ...]) -> list[Tab
     by_name = {table.name.casefold(): table for table in readable}
     for name in wanted:
         if name.casefold() not in by_name:
-            known = ", ".join(table.name for table in readable)
+            near = nearest(name, [table.name for table in readable])
+            known = ", ".join(near)
             raise ManifestError(
                 "manifest.layer-unknown",
                 file=path.name,
                 value=name,
                 known=known,
-                example=f'layers = ["{readable[0].name}"]',
+                example=f'layers = ["{near[0]}"]',
             )
     return [by_name[key] for key in sorted({name.casefold() for name in wanted})]

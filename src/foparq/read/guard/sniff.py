@@ -67,7 +67,7 @@ def format_of(path: Path) -> Format:
     if text.startswith(b"{"):
         return Format.GEOJSON
     if other:
-        raise UnreadableError("read.not-a-drawing", file=path.name, value=other)
+        raise UnreadableError("read.pdf" if other == "PDF" else "read.not-a-drawing", file=path.name, value=other)
     raise UnreadableError("read.unknown-format", file=path.name)
 
 

@@ -39,9 +39,13 @@ DISTANCE_COLUMNS: Names = {
     "id": (*_ID, "distância", "distance"),
     "from": ("de", "desde", "start", "início", "do ponto", "del punto", "point a", "ponto a", "punto a"),
     "to": ("para", "até", "hasta", "end", "fim", "fin", "ao ponto", "al punto", "point b", "ponto b", "punto b"),
-    "measured": ("medida", "medido", "trena", "tape", "cinta", "referência", "reference", "campo"),
+    "measured": (
+        "medida", "medido", "trena", "tape", "cinta", "referência", "reference", "campo", "medida em campo",
+        "field length", "medida en campo",
+    ),
     "delivered": (
         "entregue", "entregado", "entregada", "desenho", "drawing", "dibujo", "restituída", "restituído",
+        "CAD", "medida no desenho", "drawing length", "medida en el dibujo",
     ),
     **{f"{axis}{end}": (f"{axis} {name}",) for end, name in ((1, "de"), (2, "para")) for axis in "xyz"},
 }  # fmt: skip
@@ -60,6 +64,46 @@ FEATURE_COLUMNS: Names = {
     **{axis: (f"{axis} referência", f"{axis} ref", f"posição {axis}", f"posición {axis}") for axis in "xyz"},
     "tol": ("tolerância", "tolerancia", "tolerance", "raio", "radio", "radius"),
 }  # fmt: skip
+#: a length, and where it was taken: the two together name a column, in either order
+_LENGTHS = (
+    "medida", "medição", "distância", "comprimento", "dimensão", "valor", "length", "distance", "measurement", "value",
+    "longitud", "medición",
+)  # fmt: skip
+_IN_FIELD = (
+    "em campo", "de campo", "no campo", "campo", "in loco", "no local", "na obra", "no edifício", "levantada",
+    "levantado", "medida", "medido", "real", "com trena", "à trena", "trena", "field", "in the field", "on site",
+    "surveyed", "measured", "taped", "en campo", "en obra", "con cinta",
+)  # fmt: skip
+_IN_DRAWING = (
+    "no desenho", "do desenho", "de desenho", "desenho", "na prancha", "no CAD", "CAD", "no DXF", "DXF", "entregue",
+    "desenhada", "desenhado", "restituída", "restituído", "na restituição", "no produto", "drawing", "in the drawing",
+    "drawn", "delivered", "en el dibujo", "del dibujo", "dibujo", "entregada",
+)  # fmt: skip
+#: names made of two words, beside those above
+DISTANCE_PHRASES: Names = {
+    column: tuple(name for noun in _LENGTHS for word in words for name in (f"{noun} {word}", f"{word} {noun}"))
+    for column, words in (("measured", _IN_FIELD), ("delivered", _IN_DRAWING))
+}
+_SURVEYED = (
+    "em campo",
+    "de campo",
+    "levantada",
+    "topografia",
+    "estação total",
+    "real",
+    "field",
+    "surveyed",
+    "en campo",
+)
+_DELIVERED = (
+    "no desenho", "do desenho", "no CAD", "CAD", "DXF", "desenhada", "restituída", "fotogrametria",
+    "in the drawing", "drawn", "en el dibujo",
+)  # fmt: skip
+CHECKPOINT_PHRASES: Names = {
+    f"{axis}{end}": tuple(f"{name} {word}" for name in (axis, f"coordenada {axis}") for word in words)
+    for axis in "xyz"
+    for end, words in (("", (*_SURVEYED, "")), ("d", (*_DELIVERED, "entregue", "desenho")))
+}
 _USES: Names = {
     "required": (
         "", "required", "mandatory", "obrigatório", "obrigatória", "exigido", "exigida", "obligatorio", "obligatoria",
@@ -75,6 +119,28 @@ def unit_in_header(name: str) -> str:
     """Unit that a column's name carries in brackets: ``"mm"`` of ``"X (mm)"``; ``""`` if none."""
     found = _IN_BRACKETS.search(name)
     return found[1] if found and found[1] in LENGTHS else ""
+
+
+def column_of(name: str, ours: Mapping[str, str]) -> str | None:
+    """Our name of a column, by what its name says with and without what stands in brackets.
+
+    Parameters
+    ----------
+    ours : mapping
+        Plain names to our names.
+
+    Examples
+    --------
+    >>> ours = {"medida": "measured", "medidadesenho": "delivered"}
+    >>> column_of("Medida (desenho, m)", ours), column_of("Medida (m)", ours), column_of("Nota", ours)
+    ('delivered', 'measured', None)
+    """
+    found = _IN_BRACKETS.search(name)
+    if found:
+        said = " ".join(part for part in re.split(r"[\s,;/]+", found[1]) if part not in LENGTHS)
+        if (column := ours.get(plain_word(f"{name[: found.start()]} {said}"))) is not None:
+            return column
+    return ours.get(plain_name(name))
 
 
 def plain_name(name: str) -> str:

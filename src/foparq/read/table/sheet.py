@@ -5,12 +5,12 @@ The header is the first line that names what must be there. No row below it is e
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from foparq.errors import UnreadableError
 from foparq.model.drawing import Skipped, SkippedReason
 from foparq.read.table.cells import Cell, Odd, OddKind, column_letters, is_empty, is_failed, shown
-from foparq.read.table.names import Names, plain_name
+from foparq.read.table.names import Names, column_of, plain_name
 
 MOST_ROWS = 1_000_000
 _ABOVE = 20  #: lines among which the header is looked for
@@ -24,6 +24,7 @@ class Asked:
     known: Names
     required: tuple[str, ...]  #: our names of the columns that must be there
     example: str  #: a right first line
+    phrases: Names = field(default_factory=dict)  #: further names, too many to be told
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,12 +132,13 @@ def header_at(lines: Sequence[Line], asked: Asked) -> int:
 def likeness(line: Line, asked: Asked) -> tuple[bool, int]:
     """How much a line looks like the header: whether it names all columns that must be there, and how many of all."""
     ours = _ours(asked)
-    named = {column for cell in line.cells if (column := ours.get(plain_name(shown(cell))))}
+    named = {column for cell in line.cells if (column := column_of(shown(cell), ours))}
     return named.issuperset(asked.required), len(named)
 
 
 def _ours(asked: Asked) -> dict[str, str]:
-    return {plain_name(name): column for column, names in asked.known.items() for name in (column, *names)}
+    every = [*asked.phrases.items(), *((column, (column, *names)) for column, names in asked.known.items())]
+    return {plain_name(name): column for column, names in every for name in names}
 
 
 def _remarks(file: str, above: Sequence[Line], header: Line) -> tuple[Skipped, ...]:
@@ -162,7 +164,7 @@ def _columns(file: str, header: Line, asked: Asked) -> tuple[dict[str, int], tup
     ignored: list[str] = []
     names = [shown(cell) for cell in header.cells]
     for place, name in enumerate(names):
-        column = ours.get(plain_name(name))
+        column = column_of(name, ours)
         if column is None:
             if name:
                 ignored.append(name)
@@ -173,12 +175,12 @@ def _columns(file: str, header: Line, asked: Asked) -> tuple[dict[str, int], tup
             )  # fmt: skip
         else:
             at[column] = place
-    for column in asked.required:
-        if column not in at:
-            raise UnreadableError(
-                "table.column-missing", file=file, line=header.number, key=column,
-                value=", ".join(names)[:200], example=asked.example,
-            )  # fmt: skip
+    if missing := [column for column in asked.required if column not in at]:
+        known = "; ".join(f"{column}: {', '.join((column, *asked.known[column]))}" for column in missing)
+        raise UnreadableError(
+            "table.column-missing", file=file, line=header.number, key=", ".join(missing),
+            value=", ".join(filter(None, names))[:200], known=known, example=asked.example,
+        )  # fmt: skip
     return at, tuple(ignored)
 
 

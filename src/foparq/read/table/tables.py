@@ -10,11 +10,20 @@ import numpy as np
 from foparq.columns import Flags, Index, Reals, Texts
 from foparq.errors import UnreadableError
 from foparq.model.tables import Checkpoints, Distances, FeatureList
+from foparq.names import nearest
 from foparq.profile.manifest import SurveySection, TableSection
 from foparq.read.table.cells import Odd
 from foparq.read.table.csv_text import is_workbook, read_text
 from foparq.read.table.extent import Extent, lengths_are_decimal, points_are_decimal
-from foparq.read.table.names import CHECKPOINT_COLUMNS, DISTANCE_COLUMNS, FEATURE_COLUMNS, unit_in_header, use_of
+from foparq.read.table.names import (
+    CHECKPOINT_COLUMNS,
+    CHECKPOINT_PHRASES,
+    DISTANCE_COLUMNS,
+    DISTANCE_PHRASES,
+    FEATURE_COLUMNS,
+    unit_in_header,
+    use_of,
+)
 from foparq.read.table.numbers import lengths_of, number_of
 from foparq.read.table.places import places_of
 from foparq.read.table.sheet import Asked, Sheet
@@ -25,8 +34,18 @@ _SURVEYED, _DELIVERED = ("x", "y", "z"), ("xd", "yd", "zd")
 _LENGTHS = ("measured", "delivered")
 _ENDS = ("x1", "y1", "z1", "x2", "y2", "z2")  #: delivered coordinates of both ends
 OMISSIONS = ("OCCL", "ADJ", "ACCESS", "RES", "DEMOL", "HIDDEN")
-_CHECKPOINTS = Asked(known=CHECKPOINT_COLUMNS, required=("id", "x", "y", "z"), example="id;x;y;z;xd;yd;zd")
-_DISTANCES = Asked(known=DISTANCE_COLUMNS, required=("id", "measured"), example="id;from;to;measured;delivered")
+_CHECKPOINTS = Asked(
+    known=CHECKPOINT_COLUMNS,
+    required=("id", "x", "y", "z"),
+    example="id;x;y;z;xd;yd;zd",
+    phrases=CHECKPOINT_PHRASES,
+)
+_DISTANCES = Asked(
+    known=DISTANCE_COLUMNS,
+    required=("id", "measured"),
+    example="id;from;to;measured;delivered",
+    phrases=DISTANCE_PHRASES,
+)
 _FEATURES = Asked(known=FEATURE_COLUMNS, required=("id", "class"), example="id;class;facade;count;use")
 
 
@@ -153,7 +172,9 @@ def read_feature_list(path: Path, section: TableSection | None = None) -> Featur
         if not use[row]:
             raise sheet.fault("table.use-unknown", row, "use", example="required")
         if accepted[row] and accepted[row] not in OMISSIONS:
-            raise sheet.fault("table.code-unknown", row, "omission_accepted", example=", ".join(OMISSIONS))
+            raise sheet.fault(
+                "table.code-unknown", row, "omission_accepted", example=", ".join(nearest(accepted[row], OMISSIONS))
+            )
         if accepted[row] and not evidence[row]:
             raise sheet.fault("table.no-evidence", row, "omission_accepted", example="IMG_0412.jpg")
     return FeatureList(

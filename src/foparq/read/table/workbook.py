@@ -13,6 +13,7 @@ from pathlib import Path
 
 from foparq.errors import UnreadableError, UnsafeError
 from foparq.model.drawing import Skipped, SkippedReason
+from foparq.names import nearest
 from foparq.read.table.grid import Book
 from foparq.read.table.ods import OdsBook
 from foparq.read.table.sheet import Asked, Sheet, sheet_of
@@ -89,7 +90,7 @@ def _book(path: Path, archive: zipfile.ZipFile) -> Book:
 
 
 def _chosen(path: Path, sheets: Mapping[str, bool], stated: str | None) -> str:
-    known = ", ".join(list(sheets)[:_SHOWN])
+    known = ", ".join(nearest(stated or "", sheets)[:_SHOWN])
     if not sheets:
         raise UnreadableError("table.sheet-missing", file=path.name, value=stated or "1", known="-")
     if stated is None:

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Findings as the page lists them: by rule, numbered, with anchors that join list and drawing."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from foparq.findings.outcome import Outcome
 from foparq.findings.table import Findings, Severity
 from foparq.model.drawing import Drawing
 from foparq.report.page.drawing import marks_at
+from foparq.report.places import found_by, pasted
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import finding_sentences, outcome_scope, parameters_sentence, rule_meaning
 from foparq.report.words import Words, printable
@@ -74,6 +76,7 @@ class GroupView:
     tolerances: str
     preview: bool
     rows: tuple[RowView, ...]
+    ways: tuple[tuple[str, str], ...]  #: how to get to the first item, in AutoCAD and in QGIS
     unlisted: str  #: how many are not listed; ``""`` if all are
     columns: frozenset[str]  #: columns that hold anything
 
@@ -131,6 +134,7 @@ class Listing:
     spots: Reals  #: (n, 3) place in file coordinates
     sheet: Reals  #: (n, 2) place of the mark, metres on the sheet
     drawings: dict[str, Drawing]
+    ways: Callable[[Index], tuple[list[str], list[str]]]  #: how to find the items of some rows
 
 
 def listing_of(record: AuditRecord) -> Listing:
@@ -144,6 +148,7 @@ def listing_of(record: AuditRecord) -> Listing:
         spots=findings.place,
         sheet=marks_at(findings.sheet),
         drawings={drawing.path: drawing for drawing in record.delivery.drawings},
+        ways=partial(found_by, record),
     )
 
 
@@ -184,11 +189,19 @@ def group_view(words: Words, listing: Listing, group: Group, suffix: str) -> Gro
         tolerances="; ".join(dict.fromkeys(parameters_sentence(words, run.parameters) for run in group.outcomes)),
         preview=any(run.preview for run in group.outcomes),
         rows=rows,
+        ways=_ways(words, listing, group),
         unlisted=words("report.findings.unlisted", shown=words.count(len(rows)), total=words.count(found))
         if unlisted
         else "",
         columns=frozenset(held),
     )
+
+
+def _ways(words: Words, listing: Listing, group: Group) -> tuple[tuple[str, str], ...]:
+    ways = dict(
+        zip(("cad", "qgis"), (next(filter(None, lines), "") for lines in listing.ways(group.shown)), strict=True)
+    )
+    return tuple((words(f"report.findings.find-{name}"), printable(line)) for name, line in ways.items() if line)
 
 
 def tally(words: Words, run: Outcome, *, note: bool = False) -> str:
@@ -215,10 +228,10 @@ def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str
         number=number,
         anchor=f"f-{name}{suffix}",
         mark=f"m-{name}{suffix}" if marked else "",
-        place=_place(words, listing, row),
+        place=_place(listing, row),
         source=printable(str(findings.source[row])),
         layer=printable(str(findings.layer[row])),
-        handle=printable(str(findings.handle[row] or findings.item[row])),
+        handle=printable(str(findings.item[row] or findings.handle[row])),
         inserts=tuple(printable(part) for part in str(findings.inserts[row]).split("/") if part),
         other=printable(str(findings.other[row])),
         size="" if counted_once or not np.isfinite(size) else words.quantity(size, str(findings.unit[row])),
@@ -228,13 +241,6 @@ def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str
     )
 
 
-def _place(words: Words, listing: Listing, row: int) -> str:
-    spot = listing.spots[row]
-    if not np.isfinite(spot[:2]).all():
-        return ""
+def _place(listing: Listing, row: int) -> str:
     drawing = listing.drawings.get(str(listing.findings.source[row]))
-    metres = drawing.unit.metres if drawing is not None else None
-    # A tenth of a millimetre on the object, whatever the drawing unit.
-    decimals = 3 if metres is None else int(np.clip(round(4 + np.log10(metres)), 0, 8))
-    point = "," if words.language == "pt-BR" else "."
-    return "; ".join(f"{value + 0.0:.{decimals}f}".replace(".", point) for value in spot if np.isfinite(value))
+    return pasted(listing.spots[row], drawing.unit.metres if drawing is not None else None)

@@ -13,6 +13,7 @@ import numpy as np
 from foparq.findings.table import Severity
 from foparq.model.items import Role
 from foparq.model.plane import Plane
+from foparq.report.contract import contract_facts
 from foparq.report.page.completeness import CompletenessView, FeatureNumber, completeness_view, feature_numbers
 from foparq.report.page.coverage import LookedAt, coverage
 from foparq.report.page.drawing import GROUPS, Picture, picture_of
@@ -50,6 +51,7 @@ class View:
     language: str
     suffix: str  #: of anchors
     headline: Headline
+    contract: tuple[tuple[str, str], ...]  #: what the manifest states of it, name and value
     elements: tuple[ElementView, ...]
     residuals: tuple[ResidualsView, ...]
     completeness: CompletenessView | None  #: none where nothing was compared
@@ -117,6 +119,7 @@ def _view(record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], 
         words=words,
         language=language,
         suffix=suffix,
+        contract=contract_facts(words, record),
         headline=headline(words, record, listing.groups, suffix),
         elements=element_views(words, record),
         residuals=residual_views(words, record, pictures),
