@@ -113,6 +113,14 @@ class Repair:
     group: int = -1  #: group code of the damaged value; -1 if none is meant
     text: str = ""  #: what stands there, as far as it is told
 
+    @property
+    def loses(self) -> bool:
+        """Whether something that was drawn may be lost by it; how names are read loses nothing."""
+        return self.code not in _NAMES_ONLY
+
+
+_NAMES_ONLY = frozenset({"code-page-unknown"})
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bomb:
@@ -191,7 +199,7 @@ class Reading:
     repairs: tuple[Repair, ...] = ()
     skipped: tuple[Skipped, ...] = ()
     bombs: tuple[Bomb, ...] = ()
-    bad_names: tuple[str, ...] = ()  #: layer names that look doubly encoded
+    bad_names: tuple[str, ...] = ()  #: layer names that look doubly encoded, or hold bytes of another encoding
     dimensions: Dimensions | None = None
     labels: Labels | None = None
     scales: tuple[StatedScale, ...] = ()
