@@ -41,6 +41,7 @@ class SkippedReason(StrEnum):
     XCLIP_IGNORED = "xclip-ignored"
     # of a GeoPackage, Shapefile or GeoJSON
     ATTRIBUTES = "attributes"
+    BLOCKS_KEPT = "blocks-kept"  #: a CAD export that leaves blocks whole
     COMPUTED_TABLE = "computed-table"
     NO_GEOMETRY_COLUMN = "no-geometry-column"
     NOT_ASKED = "not-asked"

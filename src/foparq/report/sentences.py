@@ -78,10 +78,24 @@ def _column(words: Words, findings: Findings, field: str, rows: Index) -> list[s
     values = getattr(findings, field)[rows].tolist()
     if field == "told":
         return [_mended(words, value) for value in values]
+    if field == "handle":
+        return [printable(item_name(*names)) for names in zip(values, findings.item[rows].tolist(), strict=True)]
     if field in _TEXTS:
         return [printable(str(value)) for value in values]
     quantity = cache(words.quantity)  # a limit is the same for all
     return [quantity(value, unit) for value, unit in zip(values, findings.unit[rows].tolist(), strict=True)]
+
+
+def item_name(handle: str, item: str) -> str:
+    """How an item is called: by its handle or feature id, with the part of a feature of several; else by its id.
+
+    Examples
+    --------
+    >>> item_name("7", "plots:7.2"), item_name("3A", "2F/3A"), item_name("", "#4")
+    ('7.2', '3A', '#4')
+    """
+    own = item.rpartition(":")[2]
+    return own if handle and own.startswith(f"{handle}.") else handle or item
 
 
 _TEXTS = frozenset({"layer", "item", "handle", "other", "inserts", "source"})

@@ -9,12 +9,11 @@ from pyogrio.errors import GeometryError
 
 from foparq.errors import ManifestError, UnreadableError
 from foparq.model.drawing import Skipped, SkippedReason
-from foparq.model.items import Items
 from foparq.profile.schema import LimitsSpec
 from foparq.read.gis.crs import unit_of
 from foparq.read.gis.gpkg_curves import STRAIGHT, chords_of
 from foparq.read.gis.gpkg_safety import Contents, Table, inspect
-from foparq.read.gis.items import LayerRows, items_of
+from foparq.read.gis.items import LayerRows, Piece, items_of
 from foparq.read.gis.layers import GDAL_ERRORS, Taken, first_line, hold, read_layer
 from foparq.read.guard.stage import staged
 
@@ -64,7 +63,7 @@ def read_gpkg(path: Path, *, limits: LimitsSpec, sagitta: float, unit: str | Non
         for table in contents.tables
         if table.name not in asked and table.name != _PLACEHOLDER
     ]
-    pieces: list[tuple[Items, str]] = []
+    pieces: list[Piece] = []
     # With its prefix, GDAL opens a GeoPackage as such or not at all.
     with staged({"drawing.gpkg": path}) as link:
         name = f"GPKG:{link}"
@@ -75,9 +74,11 @@ def read_gpkg(path: Path, *, limits: LimitsSpec, sagitta: float, unit: str | Non
             if layer is None:
                 skipped.append(_unsupported(table))
                 continue
-            items, odd = items_of(_straight(path, table, layer, limits, sagitta, unit), prefix=f"{table.name}:")
-            pieces.append((items, layer.system))
-            skipped += odd
+            # The handles of a single drawing need no name of a table before them.
+            prefix = "" if layer.cad is not None and len(tables) == 1 else f"{table.name}:"
+            piece = items_of(_straight(path, table, layer, limits, sagitta, unit), prefix=prefix)
+            pieces.append(piece)
+            skipped += piece.skipped
     return Taken(
         pieces=tuple(pieces), version=contents.version, encoding="UTF-8", skipped=tuple(skipped), layers=contents.layers
     )  # fmt: skip

@@ -19,7 +19,7 @@ from urllib.parse import quote
 
 from foparq.errors import UnreadableError, UnsafeError
 from foparq.model.drawing import Skipped, SkippedReason
-from foparq.read.gis.items import LAYER_COLUMNS
+from foparq.read.gis.columns import TEXT_COLUMNS
 
 APPLICATION_IDS = {0x47504B47: "GPKG", 0x47503130: "GPKG 1.0", 0x47503131: "GPKG 1.1"}
 _STEPS = 1000  #: instructions of SQLite between two looks at the clock
@@ -247,7 +247,7 @@ def _reason(schema: _Schema, key: str, data_type: str, column: str) -> SkippedRe
 
 def _hold_texts(schema: _Schema, table: str) -> None:
     # The text that names a layer is held in memory several times. A longer value than one may be is an error of SQLite.
-    for column in {str(row[1]) for row in schema.columns(table)} & set(LAYER_COLUMNS):
+    for column in {str(row[1]) for row in schema.columns(table)} & set(TEXT_COLUMNS):
         query = f"SELECT total(length({quoted(column)})) FROM {quoted(table)}"  # noqa: S608 - quoted
         try:
             (total,) = schema.connection.execute(query).fetchone()

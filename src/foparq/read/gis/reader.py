@@ -7,7 +7,7 @@ Rows become items by these rules:
   where a feature has several parts; ``handle`` is the feature id as written.
 - ``layer`` is the name of the table. Where the table has a text column called ``layer`` or ``camada``, as CAD programs
   export it, its value is the layer; rows without a value keep the name of the table.
-- Rows of a CAD export with ``PaperSpace`` true are in paper space.
+- Rows of a CAD export with ``PaperSpace`` true are in paper space; what they are is told by :mod:`foparq.read.gis.cad`.
 - A feature without geometry stays, with ``None``. Measures (M) are dropped, heights are kept, nothing is repaired.
 - Arcs become chords of the stated sagitta.
 """
@@ -16,6 +16,7 @@ import mmap
 import re
 import warnings
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -23,17 +24,19 @@ import shapely
 from pyogrio.errors import GeometryError
 
 from foparq.errors import UnreadableError, UnsafeError
-from foparq.model.drawing import Reading, Skipped, SkippedReason
-from foparq.model.items import Items
+from foparq.model.drawing import Labels, Reading, Skipped, SkippedReason, StatedScale
+from foparq.model.items import Items, Role
 from foparq.profile.schema import LimitsSpec
 from foparq.read.gis.companions import companions
 from foparq.read.gis.crs import describe, unit_of
 from foparq.read.gis.gpkg import read_gpkg
-from foparq.read.gis.items import items_of, join_items
+from foparq.read.gis.items import Piece, items_of, join_items
 from foparq.read.gis.layers import GDAL_ERRORS, Taken, first_line, hold, read_layer
 from foparq.read.guard.paths import name_of
 from foparq.read.guard.sniff import Format, format_of
 from foparq.read.guard.stage import staged
+from foparq.read.lettering import LONGEST_NAME, LONGEST_SCALE, MOST_NAMES, scales_in
+from foparq.read.letters import garbled
 from foparq.read.raw import RawDrawing, holds_drawing
 
 _READ = (".shx", ".dbf", ".prj", ".cpg")  #: companions that what is read depends on
@@ -83,13 +86,17 @@ def read_gis(
             taken = _read_geojson(path, limits)
         else:
             raise UnreadableError("read.not-gis", file=path.name, value=kind.value)
-    items = join_items([items for items, _ in taken.pieces])
+    items = join_items([piece.items for piece in taken.pieces])
     hold(path, "read.too-many-vertices", int(shapely.get_num_coordinates(items.geometry).sum()), limits.vertices)
-    systems = tuple(dict.fromkeys(system for part, system in taken.pieces if len(part)))
+    systems = tuple(dict.fromkeys(piece.system for piece in taken.pieces if len(piece.items)))
+    names = dict.fromkeys([*taken.layers, *items.layer.tolist()])
     reading = Reading(
         version=taken.version,
         encoding=taken.encoding,
         skipped=(*taken.skipped, *_on_paper(items)),
+        bad_names=tuple(name for name in names if garbled(name, taken.encoding)),
+        labels=_labels(taken.pieces),
+        scales=_scales(taken.pieces),
         layers=taken.layers,
         crs=", ".join(describe(text) for text in systems if text),
     )
@@ -98,11 +105,32 @@ def read_gis(
 
 def _on_paper(items: Items) -> tuple[Skipped, ...]:
     # A CAD export keeps the sheet among its rows: a frame, unless nothing else is drawn.
-    reason = SkippedReason.PAPER_SPACE if holds_drawing(items) else SkippedReason.PAPER_SPACE_ONLY
-    found = Counter(zip(items.kind[items.paper].tolist(), items.layer[items.paper].tolist(), strict=True))
+    frame = SkippedReason.PAPER_SPACE if holds_drawing(items) else SkippedReason.PAPER_SPACE_ONLY
+    lettered = items.role[items.paper] == Role.ANNOTATION
+    reasons = np.where(lettered, SkippedReason.PAPER_SPACE.value, frame.value).tolist()
+    columns = (items.kind[items.paper].tolist(), items.layer[items.paper].tolist())
+    found = Counter(zip(reasons, *columns, strict=True))
     return tuple(
-        Skipped(reason=reason, kind=kind, layer=layer, count=count) for (kind, layer), count in sorted(found.items())
+        Skipped(reason=SkippedReason(reason), kind=kind, layer=layer, count=count)
+        for (reason, kind, layer), count in sorted(found.items())
     )
+
+
+def _labels(pieces: Sequence[Piece]) -> Labels | None:
+    """Letterings of a CAD export that may name a point."""
+    if not any(len(piece.words) for piece in pieces):
+        return None
+    words = np.concatenate([piece.words[~piece.on_sheet] for piece in pieces])
+    places = np.concatenate([piece.places[~piece.on_sheet] for piece in pieces])
+    short = np.array([len(text) <= LONGEST_NAME for text in words.tolist()], dtype=bool)
+    chosen = np.flatnonzero(short)[:MOST_NAMES]
+    return Labels(text=words[chosen], place=places[chosen], block=np.zeros(len(chosen), dtype=bool))
+
+
+def _scales(pieces: Sequence[Piece]) -> tuple[StatedScale, ...]:
+    said = {text for piece in pieces for text in piece.words.tolist() if len(text) <= LONGEST_SCALE}
+    found = {scale for text in said for scale in scales_in(text)}
+    return tuple(sorted(found, key=lambda one: (one.said, one.denominator)))
 
 
 def _read_shapefile(path: Path, limits: LimitsSpec) -> Taken:
@@ -160,9 +188,8 @@ def _single(path: Path, name: str, limits: LimitsSpec, *, undefined: bool, versi
     except (GeometryError, *GDAL_ERRORS) as error:
         raise UnreadableError("read.gis-broken", file=path.name, value=first_line(error)) from None
     hold(path, "read.too-many-items", len(layer.fid), limits.entities)
-    items, skipped = items_of(layer, prefix="")
-    pieces = ((items, layer.system),)
-    return Taken(pieces=pieces, version=version, encoding=encoding, skipped=skipped, layers=(layer.name,))
+    piece = items_of(layer, prefix="")
+    return Taken(pieces=(piece,), version=version, encoding=encoding, skipped=piece.skipped, layers=(layer.name,))
 
 
 def _bounds(items: Items) -> tuple[float, float, float, float]:

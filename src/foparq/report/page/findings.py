@@ -12,7 +12,7 @@ from foparq.findings.table import Findings, Severity
 from foparq.model.drawing import Drawing
 from foparq.report.page.drawing import marks_at
 from foparq.report.record import AuditRecord
-from foparq.report.sentences import finding_sentences, outcome_scope, parameters_sentence, rule_meaning
+from foparq.report.sentences import finding_sentences, item_name, outcome_scope, parameters_sentence, rule_meaning
 from foparq.report.words import Words, printable
 
 WRITTEN = 500  #: findings of one rule that the page lists
@@ -214,7 +214,7 @@ def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str
         place=_place(words, listing, row),
         source=printable(str(findings.source[row])),
         layer=printable(str(findings.layer[row])),
-        handle=printable(str(findings.handle[row] or findings.item[row])),
+        handle=printable(item_name(str(findings.handle[row]), str(findings.item[row]))),
         inserts=tuple(printable(part) for part in str(findings.inserts[row]).split("/") if part),
         other=printable(str(findings.other[row])),
         size="" if counted_once or not np.isfinite(size) else words.quantity(size, str(findings.unit[row])),
