@@ -8,8 +8,8 @@ import pytest
 
 from foparq.model.drawing import Reading
 from foparq.profile.schema import LimitsSpec
-from foparq.read.dxf.codepage import encoding_of
 from foparq.read.dxf.reader import read_dxf
+from foparq.read.letters import encoding_of
 
 #: a name, and its bytes as the charts of the code pages give them
 PAGES = [

@@ -5,7 +5,6 @@ AutoCAD names code pages of Windows (``ANSI_1252``), DOS (``dos850``), Macintosh
 (``iso8859-1``); ezdxf knows those of Windows and takes every other for the Western one.
 """
 
-import codecs
 import mmap
 import re
 from collections.abc import Iterator
@@ -15,17 +14,10 @@ from pathlib import Path
 
 from ezdxf.tools.codepage import codepage_to_encoding
 
+from foparq.read.letters import encoding_of
+
 _TEXT = re.compile(rb"(?<![^\r\n \t])\$DWGCODEPAGE[ \t]*\r?\n[ \t]*3[ \t]*\r?\n([^\r\n]{0,100})")
 _BINARY = re.compile(rb"\$DWGCODEPAGE\x00\x03\x00?([^\x00]{0,100})\x00")  #: the group code has one byte in R12
-_ISO = re.compile(r"(?:iso)?[-_ ]*8859[-_ ]*([0-9]{1,2})")
-_NUMBERED = re.compile(r"(?:ansi|dos|cp|windows|ibm|oem|ms|msdos|pc)?[-_ ]*([0-9]{3,5})")
-_NAMED = {
-    "ascii": "ascii", "usascii": "ascii", "utf8": "utf-8", "65001": "utf-8",
-    "mac": "mac_roman", "macroman": "mac_roman", "macintosh": "mac_roman",
-    "big5": "cp950", "gb2312": "gbk", "936": "gbk", "ksc5601": "cp949", "johab": "johab", "1361": "johab",
-}  # fmt: skip
-#: reads the same in every code page of a DXF file; of signs, some have another meaning in a few of them
-_PLAIN = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789 $*+-._"
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,33 +50,6 @@ def code_page_of(path: Path, *, binary: bool) -> CodePage:
         found = (_BINARY if binary else _TEXT).search(content)
         stated = found[1].decode("ascii", "replace").strip() if found else ""
     return CodePage(stated, encoding_of(stated))
-
-
-def encoding_of(stated: str) -> str:
-    """Python's name of a code page; ``""`` if it is unknown.
-
-    Examples
-    --------
-    >>> encoding_of("dos850"), encoding_of("ISO8859-15"), encoding_of("macintosh"), encoding_of("dos999")
-    ('cp850', 'iso8859-15', 'mac-roman', '')
-    """
-    name = stated.strip().lower()
-    candidates = [_NAMED.get(re.sub(r"[-_ ]", "", name), "")]
-    if found := _ISO.fullmatch(name):
-        candidates = [f"iso8859_{found[1]}"]
-    elif found := _NUMBERED.fullmatch(name):
-        candidates = [_NAMED.get(found[1], f"cp{found[1]}")]
-    return next((codec for one in candidates if one and (codec := _codec(one))), "")
-
-
-def _codec(name: str) -> str:
-    # Of what Python knows, only code pages that hold the letters of the file's own syntax: not those of mainframes.
-    try:
-        known = codecs.lookup(name)
-        plain = known.decode(_PLAIN.encode("ascii"))[0]
-    except (LookupError, UnicodeError):
-        return ""
-    return known.name if plain == _PLAIN else ""
 
 
 @contextmanager

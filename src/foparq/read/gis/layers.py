@@ -11,10 +11,13 @@ from pyogrio.errors import CRSError, DataLayerError, DataSourceError, FeatureErr
 
 from foparq.columns import Flags, Texts
 from foparq.errors import UnsafeError
-from foparq.model.drawing import Skipped
+from foparq.model.drawing import Repair, Skipped
 from foparq.read.gis.cad import CadColumns
 from foparq.read.gis.columns import CAD_COLUMNS, LAYER_COLUMNS, PAPER_COLUMNS, READ_COLUMNS
+from foparq.read.gis.dbf import Encoding
 from foparq.read.gis.items import LayerRows, Piece
+
+_BYTES = "ISO-8859-1"  #: in which every byte is a letter
 
 #: what GDAL raises about a broken file
 GDAL_ERRORS = (DataSourceError, DataLayerError, FeatureError, FieldError, CRSError, UnicodeDecodeError)
@@ -29,9 +32,12 @@ class Taken:
     encoding: str
     skipped: tuple[Skipped, ...]
     layers: tuple[str, ...]  #: every layer of the file
+    repairs: tuple[Repair, ...] = ()
 
 
-def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, called: str = "") -> LayerRows:
+def read_layer(
+    name: str, layer: str | int, most: int, *, undefined: bool, called: str = "", encoding: Encoding | None = None
+) -> LayerRows:
     """One layer.
 
     Parameters
@@ -46,6 +52,8 @@ def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, calle
         True if the file is known to say nothing of its reference system.
     called : str
         Name of the layer for people; that of the table if left out.
+    encoding : Encoding, optional
+        Of its texts; GDAL chooses where it has no name, and knows few names.
 
     Raises
     ------
@@ -57,9 +65,18 @@ def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, calle
     # A condition that is always true makes GDAL count rows instead of believing the file's own count.
     strict = {"where": "1 = 1", "IMMUTABLE": "YES", "NOLOCK": "YES", "LIST_ALL_TABLES": "NO"}
     options: dict[str, Any] = strict if name.startswith("GPKG:") else {}
+    codec = encoding.name if encoding is not None else ""
     meta, fid, wkb, values = pyogrio.raw.read(
-        name, layer=layer, columns=READ_COLUMNS, return_fids=True, max_features=most, **options
+        name,
+        layer=layer,
+        columns=READ_COLUMNS,
+        return_fids=True,
+        max_features=most,
+        encoding=_BYTES if codec else None,
+        **options,
     )
+    if codec:
+        values = [_decoded(column, codec) if column.dtype == object else column for column in values]
     if wkb is None:
         wkb = np.full(len(fid), None, dtype=object)
     columns = dict(zip(meta["fields"], values, strict=True))
@@ -70,6 +87,15 @@ def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, calle
         system="" if undefined or not meta["crs"] else meta["crs"], cad=cad,
         paper=_flags(next((columns[key] for key in PAPER_COLUMNS if key in columns), None), len(fid)),
     )  # fmt: skip
+
+
+def _decoded(column: Texts, codec: str) -> Texts:
+    """Texts that were read byte by byte; bytes that mean nothing are shown as U+FFFD."""
+    texts = column.copy()
+    texts[:] = [
+        text.encode(_BYTES).decode(codec, "replace") if isinstance(text, str) else text for text in column.tolist()
+    ]
+    return texts
 
 
 def _texts(columns: dict[str, Any], names: tuple[str, ...]) -> Texts | None:

@@ -17,6 +17,7 @@ import re
 import warnings
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -24,11 +25,12 @@ import shapely
 from pyogrio.errors import GeometryError
 
 from foparq.errors import UnreadableError, UnsafeError
-from foparq.model.drawing import Labels, Reading, Skipped, SkippedReason, StatedScale
+from foparq.model.drawing import Labels, Reading, Repair, Skipped, SkippedReason, StatedScale
 from foparq.model.items import Items, Role
 from foparq.profile.schema import LimitsSpec
 from foparq.read.gis.companions import companions
 from foparq.read.gis.crs import describe, unit_of
+from foparq.read.gis.dbf import Encoding, encoding_of_dbf
 from foparq.read.gis.gpkg import read_gpkg
 from foparq.read.gis.items import Piece, items_of, join_items
 from foparq.read.gis.layers import GDAL_ERRORS, Taken, first_line, hold, read_layer
@@ -43,7 +45,7 @@ _READ = (".shx", ".dbf", ".prj", ".cpg")  #: companions that what is read depend
 _MOST_COLUMNS = 2_000  #: as in SQLite, and so in a GeoPackage
 _JSON_NAME = re.compile(rb'"([^"\\]*+)"\s*+:')
 _SHX_HEADER, _SHX_RECORD = 100, 8  #: bytes
-_LONGEST_NAME = 40  #: letters of the name of an encoding
+_ELSE = "iso8859-1"  #: in which GDAL reads what nobody names
 
 
 def read_gis(
@@ -93,6 +95,7 @@ def read_gis(
     reading = Reading(
         version=taken.version,
         encoding=taken.encoding,
+        repairs=taken.repairs,
         skipped=(*taken.skipped, *_on_paper(items)),
         bad_names=tuple(name for name in names if garbled(name, taken.encoding)),
         labels=_labels(taken.pieces),
@@ -141,16 +144,16 @@ def _read_shapefile(path: Path, limits: LimitsSpec) -> Taken:
             "read.shp-incomplete", file=path.name, value=" ".join(missing), example=path.with_suffix(missing[0]).name
         )
     _same_rows(path, beside)
-    encoding = ""
-    if ".cpg" in beside:
-        with beside[".cpg"].open("rb") as stream:
-            encoding = stream.read(_LONGEST_NAME).decode("ascii", "replace").strip()
+    encoding = encoding_of_dbf(beside[".dbf"], beside.get(".cpg"))
     # GDAL would open whatever else has a fitting name.
     files = {"drawing.shp": path, **{f"drawing{ending}": beside[ending] for ending in _READ if ending in beside}}
     with staged(files) as link:
-        return _single(
+        taken = _single(
             path, str(link), limits, undefined=".prj" not in beside, version="ESRI Shapefile", encoding=encoding
         )
+    if not encoding.unknown:
+        return taken
+    return replace(taken, repairs=(Repair(code="code-page-unknown", kind=".cpg", text=encoding.stated, detail=_ELSE),))
 
 
 def _same_rows(path: Path, beside: dict[str, Path]) -> None:
@@ -178,18 +181,28 @@ def _hold_names(path: Path) -> None:
 def _read_geojson(path: Path, limits: LimitsSpec) -> Taken:
     _hold_names(path)
     with staged({"drawing.geojson": path}) as link:
-        return _single(path, f"GeoJSON:{link}", limits, undefined=False, version="GeoJSON", encoding="UTF-8")
+        return _single(
+            path, f"GeoJSON:{link}", limits, undefined=False, version="GeoJSON", encoding=Encoding("UTF-8", "")
+        )
 
 
-def _single(path: Path, name: str, limits: LimitsSpec, *, undefined: bool, version: str, encoding: str) -> Taken:
+def _single(path: Path, name: str, limits: LimitsSpec, *, undefined: bool, version: str, encoding: Encoding) -> Taken:
     # Formats of one layer. One feature more than allowed is asked for, so that too many are noticed.
     try:
-        layer = read_layer(name, 0, limits.entities + 1, undefined=undefined, called=name_of(path.stem))
+        layer = read_layer(
+            name, 0, limits.entities + 1, undefined=undefined, called=name_of(path.stem), encoding=encoding
+        )
     except (GeometryError, *GDAL_ERRORS) as error:
         raise UnreadableError("read.gis-broken", file=path.name, value=first_line(error)) from None
     hold(path, "read.too-many-items", len(layer.fid), limits.entities)
     piece = items_of(layer, prefix="")
-    return Taken(pieces=(piece,), version=version, encoding=encoding, skipped=piece.skipped, layers=(layer.name,))
+    return Taken(
+        pieces=(piece,),
+        version=version,
+        encoding=encoding.name.upper() or encoding.stated,
+        skipped=piece.skipped,
+        layers=(layer.name,),
+    )
 
 
 def _bounds(items: Items) -> tuple[float, float, float, float]:
