@@ -9,6 +9,7 @@ from pyogrio.errors import GeometryError
 
 from foparq.errors import ManifestError, UnreadableError
 from foparq.model.drawing import Skipped, SkippedReason
+from foparq.names import folded
 from foparq.profile.schema import LimitsSpec
 from foparq.read.gis.crs import unit_of
 from foparq.read.gis.gpkg_curves import STRAIGHT, chords_of
@@ -128,9 +129,12 @@ def _wanted(path: Path, contents: Contents, wanted: tuple[str, ...]) -> list[Tab
         raise UnreadableError("read.gpkg-no-features", file=path.name, value=found)
     if not wanted:
         return readable
-    by_name = {table.name.casefold(): table for table in readable}
+    # Two tables may differ in nothing but the composition of an accent.
+    by_name: dict[str, list[Table]] = {}
+    for table in readable:
+        by_name.setdefault(folded(table.name), []).append(table)
     for name in wanted:
-        if name.casefold() not in by_name:
+        if folded(name) not in by_name:
             known = ", ".join(table.name for table in readable)
             raise ManifestError(
                 "manifest.layer-unknown",
@@ -139,4 +143,4 @@ def _wanted(path: Path, contents: Contents, wanted: tuple[str, ...]) -> list[Tab
                 known=known,
                 example=f'layers = ["{readable[0].name}"]',
             )
-    return [by_name[key] for key in sorted({name.casefold() for name in wanted})]
+    return [table for key in sorted({folded(name) for name in wanted}) for table in by_name[key]]

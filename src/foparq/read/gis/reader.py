@@ -6,7 +6,8 @@ Rows become items by these rules:
 - One item a part of a feature. ``item`` is ``"table:fid"`` in a GeoPackage, ``"fid"`` elsewhere, with ``".part"`` added
   where a feature has several parts; ``handle`` is the feature id as written.
 - ``layer`` is the name of the table. Where the table has a text column called ``layer`` or ``camada``, as CAD programs
-  export it, its value is the layer; rows without a value keep the name of the table.
+  export it, its value is the layer; rows without a value keep the name of the table. Names that differ in case only, or
+  in how accents are composed, are one layer.
 - Rows of a CAD export with ``PaperSpace`` true are in paper space; what they are is told by :mod:`foparq.read.gis.cad`.
 - A feature without geometry stays, with ``None``. Measures (M) are dropped, heights are kept, nothing is repaired.
 - Arcs become chords of the stated sagitta.
@@ -27,6 +28,7 @@ from pyogrio.errors import GeometryError
 from foparq.errors import UnreadableError, UnsafeError
 from foparq.model.drawing import Labels, Reading, Repair, Skipped, SkippedReason, StatedScale
 from foparq.model.items import Items, Role
+from foparq.names import folded
 from foparq.profile.schema import LimitsSpec
 from foparq.read.gis.companions import companions
 from foparq.read.gis.crs import describe, unit_of
@@ -88,7 +90,7 @@ def read_gis(
             taken = _read_geojson(path, limits)
         else:
             raise UnreadableError("read.not-gis", file=path.name, value=kind.value)
-    items = join_items([piece.items for piece in taken.pieces])
+    items = _one_spelling(join_items([piece.items for piece in taken.pieces]), taken.layers)
     hold(path, "read.too-many-vertices", int(shapely.get_num_coordinates(items.geometry).sum()), limits.vertices)
     systems = tuple(dict.fromkeys(piece.system for piece in taken.pieces if len(piece.items)))
     names = dict.fromkeys([*taken.layers, *items.layer.tolist()])
@@ -104,6 +106,22 @@ def read_gis(
         crs=", ".join(describe(text) for text in systems if text),
     )
     return RawDrawing(items=items, reading=reading, unit=unit_of(systems or ("",), _bounds(items), unit))
+
+
+def _one_spelling(items: Items, tables: Sequence[str]) -> Items:
+    """Items whose layers are one where their names differ in case or in how accents are composed, as in CAD.
+
+    The spelling of a table wins, else the first in order of letters, whatever the order of the rows.
+    """
+    names = set(items.layer.tolist())
+    spelt: dict[str, str] = {}
+    for name in (*tables, *sorted(names)):
+        spelt.setdefault(folded(name), name)
+    if all(spelt[folded(name)] == name for name in names):
+        return items
+    layer = items.layer.copy()
+    layer[:] = [spelt[folded(name)] for name in items.layer.tolist()]
+    return replace(items, layer=layer)
 
 
 def _on_paper(items: Items) -> tuple[Skipped, ...]:
