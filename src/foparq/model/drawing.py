@@ -46,8 +46,10 @@ class SkippedReason(StrEnum):
     NO_GEOMETRY_COLUMN = "no-geometry-column"
     NOT_ASKED = "not-asked"
     RASTER = "raster"
+    SEVERAL_GEOMETRIES = "several-geometries"  #: a table with several geometry columns
     TABLE_MISSING = "table-missing"
     TRIGGER = "trigger"
+    UNLISTED_GEOMETRY = "unlisted-geometry"
     UNLISTED_VIEW = "unlisted-view"
     UNLISTED_VIRTUAL_TABLE = "unlisted-virtual-table"
     UNSUPPORTED_GEOMETRY = "unsupported-geometry"
@@ -76,6 +78,7 @@ _NO_LINEWORK = frozenset({
     SkippedReason.PAPER_SPACE,  # lettering of the sheet, while the drawing stands in model space
     SkippedReason.RASTER,  # tiles of an image
     SkippedReason.TRIGGER,  # runs when a row changes, draws nothing
+    SkippedReason.UNLISTED_GEOMETRY,  # a column that no program shows
     SkippedReason.UNLISTED_VIEW,  # no layer: nothing is delivered through it
     SkippedReason.UNLISTED_VIRTUAL_TABLE,  # as above
     SkippedReason.VIEWPORT,  # a window on what is read elsewhere

@@ -18,3 +18,8 @@ CAD_COLUMNS = {
 #: columns of texts that are read
 TEXT_COLUMNS = (*LAYER_COLUMNS, *(name for names in CAD_COLUMNS.values() for name in names))
 READ_COLUMNS = [*TEXT_COLUMNS, *PAPER_COLUMNS]
+#: types of columns that hold geometry
+GEOMETRY_TYPES = frozenset({
+    "GEOMETRY", "POINT", "LINESTRING", "POLYGON", "MULTIPOINT", "MULTILINESTRING", "MULTIPOLYGON", "GEOMETRYCOLLECTION",
+    "CIRCULARSTRING", "COMPOUNDCURVE", "CURVEPOLYGON", "MULTICURVE", "MULTISURFACE", "CURVE", "SURFACE",
+})  # fmt: skip

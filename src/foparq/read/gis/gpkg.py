@@ -124,6 +124,12 @@ def _straight(
 
 def _wanted(path: Path, contents: Contents, wanted: tuple[str, ...]) -> list[Table]:
     readable = [table for table in contents.tables if table.name != _PLACEHOLDER]
+    several = [record for record in contents.skipped if record.reason is SkippedReason.SEVERAL_GEOMETRIES]
+    if not readable and several:
+        example = several[0].name.split(", ")[0]
+        raise UnreadableError(
+            "read.gpkg-several-geometries", file=path.name, key=several[0].layer, value=several[0].name, example=example
+        )
     if not readable:
         found = ", ".join(f"{record.layer} ({record.reason})" for record in contents.skipped) or "-"
         raise UnreadableError("read.gpkg-no-features", file=path.name, value=found)
