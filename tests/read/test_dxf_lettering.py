@@ -6,7 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from foparq.model.lettering import lettered_length
-from foparq.read.dxf.text import doubly_encoded, override_text, plain_lettering, readable
+from foparq.read.dxf.text import override_text, plain_lettering, readable
+from foparq.read.letters import doubly_encoded
 
 INCH = 0.0254
 

@@ -134,16 +134,21 @@ def test_a_name_in_another_composition_leads_nowhere_else(tmp_path: Path) -> Non
     (home / "o\u0301.dxf").symlink_to(tmp_path / "b.dxf")
     with pytest.raises(UnsafeError):
         inside(home, "\u00f3.dxf")
+    (home / "B.dxf").symlink_to(tmp_path / "b.dxf")
+    with pytest.raises(UnsafeError):
+        inside(home, "b.dxf")
     (home / "u\u0301.dxf").symlink_to(home / "nowhere.dxf")
     assert not inside(home, "\u00fa.dxf").exists()
     assert not inside(home, "u\u0301.dxf").exists()
 
 
-def test_a_file_that_is_called_otherwise_is_named_and_not_taken(tmp_path: Path) -> None:
+def test_a_file_whose_name_differs_in_case_is_taken_if_it_is_the_only_one(tmp_path: Path) -> None:
     (tmp_path / "desenhos").mkdir()
     (tmp_path / "desenhos" / "fachada.dxf").write_text("")
     source = Source(path="Desenhos/Fachada.DXF", role="drawing", sha256="", bytes=0, status=SourceStatus.REFUSED)
-    told = identified(source, inside(tmp_path, source.path), 1000)
+    assert inside(tmp_path, source.path) == (tmp_path / "desenhos" / "fachada.dxf").resolve()
+    # Named without a folder of a delivery, it is told and not taken.
+    told = identified(source, tmp_path / source.path, 1000)
     assert (told.status, told.error) == (SourceStatus.MISSING, "read.missing-like")
     assert dict(told.fields)["other"] == "desenhos/fachada.dxf"
     (tmp_path / "desenhos" / "FACHADA.dxf").write_text("")

@@ -129,7 +129,7 @@ def unseen(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     for drawing in evidence.delivery.drawings:
         if bombs := sorted({bomb.block for bomb in drawing.reading.bombs}):
             why.append(because("unseen.block", element=name, file=drawing.path, blocks=some(bombs, 5), n=len(bombs)))
-        if repairs := len(drawing.reading.repairs):
+        if repairs := sum(repair.loses for repair in drawing.reading.repairs):
             why.append(because("unseen.repaired", element=name, file=drawing.path, n=repairs))
         # Blocks that are not taken apart are told by name above.
         if hidden := hidden_parts(drawing, but={SkippedReason.BLOCK_BOMB}):

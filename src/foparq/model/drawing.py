@@ -41,12 +41,15 @@ class SkippedReason(StrEnum):
     XCLIP_IGNORED = "xclip-ignored"
     # of a GeoPackage, Shapefile or GeoJSON
     ATTRIBUTES = "attributes"
+    BLOCKS_KEPT = "blocks-kept"  #: a CAD export that leaves blocks whole
     COMPUTED_TABLE = "computed-table"
     NO_GEOMETRY_COLUMN = "no-geometry-column"
     NOT_ASKED = "not-asked"
     RASTER = "raster"
+    SEVERAL_GEOMETRIES = "several-geometries"  #: a table with several geometry columns
     TABLE_MISSING = "table-missing"
     TRIGGER = "trigger"
+    UNLISTED_GEOMETRY = "unlisted-geometry"
     UNLISTED_VIEW = "unlisted-view"
     UNLISTED_VIRTUAL_TABLE = "unlisted-virtual-table"
     UNSUPPORTED_GEOMETRY = "unsupported-geometry"
@@ -75,6 +78,7 @@ _NO_LINEWORK = frozenset({
     SkippedReason.PAPER_SPACE,  # lettering of the sheet, while the drawing stands in model space
     SkippedReason.RASTER,  # tiles of an image
     SkippedReason.TRIGGER,  # runs when a row changes, draws nothing
+    SkippedReason.UNLISTED_GEOMETRY,  # a column that no program shows
     SkippedReason.UNLISTED_VIEW,  # no layer: nothing is delivered through it
     SkippedReason.UNLISTED_VIRTUAL_TABLE,  # as above
     SkippedReason.VIEWPORT,  # a window on what is read elsewhere
@@ -112,6 +116,14 @@ class Repair:
     layer: str = ""
     group: int = -1  #: group code of the damaged value; -1 if none is meant
     text: str = ""  #: what stands there, as far as it is told
+
+    @property
+    def loses(self) -> bool:
+        """Whether something that was drawn may be lost by it; how names are read loses nothing."""
+        return self.code not in _NAMES_ONLY
+
+
+_NAMES_ONLY = frozenset({"code-page-unknown"})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -191,7 +203,7 @@ class Reading:
     repairs: tuple[Repair, ...] = ()
     skipped: tuple[Skipped, ...] = ()
     bombs: tuple[Bomb, ...] = ()
-    bad_names: tuple[str, ...] = ()  #: layer names that look doubly encoded
+    bad_names: tuple[str, ...] = ()  #: layer names that look doubly encoded, or hold bytes of another encoding
     dimensions: Dimensions | None = None
     labels: Labels | None = None
     scales: tuple[StatedScale, ...] = ()

@@ -106,7 +106,7 @@ class HiddenItems(Named):
 class LayerNames(Named):
     """Names of layers of one file; one row a name."""
 
-    doubly_encoded: Flags  #: (n,) true if the name reads like UTF-8 taken for another encoding
+    doubly_encoded: Flags  #: (n,) true if it reads like UTF-8 taken for another encoding, or holds bytes of another
     count: Reals  #: (n,) items on the layer
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from foparq.findings.table import Severity
+from foparq.names import folded
 from foparq.profile.elements import ElementSpec
 from foparq.profile.quantities import LooserWhen
 from foparq.profile.schema import CheckSpec, Profile
@@ -178,8 +179,8 @@ def _in_check(own: CheckSpec, other: CheckSpec, scale: float) -> Iterator[Looser
 
 
 def _covers(own: Sequence[str], other: Sequence[str]) -> bool:
-    mine = {pattern.casefold() for pattern in own}
-    return "*" in mine or {pattern.casefold() for pattern in other} <= mine
+    mine = {folded(pattern) for pattern in own}
+    return "*" in mine or {folded(pattern) for pattern in other} <= mine
 
 
 def _layers(spec: CheckSpec) -> tuple[str, ...]:

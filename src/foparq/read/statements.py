@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """What people confirm by name in the manifest."""
 
+from pathlib import PurePosixPath
+
 from foparq.errors import ManifestError
 from foparq.model.statements import Confirmation
 from foparq.names import folded
@@ -37,7 +39,7 @@ def confirms(one: ConfirmedSection, section: DrawingSection) -> bool:
     """Whether a person confirms what the manifest states of a drawing."""
     stated = {"unit": section.unit, "plane": section.plane}.get(one.what)
     same = isinstance(stated, str) and folded(stated) == folded(one.value)
-    return same and one.path in {"", section.path}
+    return same and _speaks_of(one, section)
 
 
 def _stated(one: ConfirmedSection, manifest: Manifest) -> list[str] | None:
@@ -45,6 +47,15 @@ def _stated(one: ConfirmedSection, manifest: Manifest) -> list[str] | None:
     if one.what in {"checkpoints", "distances"}:
         return [_NOT_DRAWN]
     if one.what in {"unit", "plane"}:
-        drawings = [section for section in manifest.drawing if one.path in {"", section.path}]
+        drawings = [section for section in manifest.drawing if _speaks_of(one, section)]
         return [value for section in drawings if isinstance(value := getattr(section, one.what), str)]
     return None
+
+
+def _speaks_of(one: ConfirmedSection, section: DrawingSection) -> bool:
+    """Whether a person speaks of a drawing: by its path, however it is spelt, or of all."""
+    return not one.path or _path_key(one.path) == _path_key(section.path)
+
+
+def _path_key(path: str) -> str:
+    return folded(PurePosixPath(path.replace("\\", "/")).as_posix())

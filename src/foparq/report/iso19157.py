@@ -120,8 +120,10 @@ class _Report:
         verdict = self.words(f"evaluate.verdict.name.{self.record.quality.verdict.value}")
         key = "evaluate.xml.abstract-loose" if self.record.loose else "evaluate.xml.abstract"
         quality, contract = self.record.quality, contract_line(self.words, self.record)
-        opening = [self.words(key, profile=self._specification(), verdict=verdict), *([f"{contract}."] * bool(contract))]
-        return " ".join([*opening, *self._sentences(() if self.record.loose else (*quality.why, *quality.remarks))])
+        opening = self.words(key, profile=self._specification(), verdict=verdict) + (
+            f" {contract}." if contract else ""
+        )
+        return " ".join([opening, *self._sentences(() if self.record.loose else (*quality.why, *quality.remarks))])
 
     def _specification(self) -> str:
         record = self.record

@@ -11,6 +11,7 @@ from foparq.columns import Flags, Index, Integers, Reals, Texts
 from foparq.errors import UnsafeError
 from foparq.model.drawing import Skipped, SkippedReason
 from foparq.model.items import Items, Role, no_items
+from foparq.names import folded
 from foparq.read.dxf.kinds import Unseen
 
 LINE, FACE, PLACE = 0, 1, 2  #: forms of geometry
@@ -21,7 +22,8 @@ _ROLES = tuple(Role)
 class LayerTable:
     """Layers of a file by number. Number 0 is layer ``"0"``, whose content takes the layer of the insert.
 
-    Names are told apart without regard to case, as CAD programs do; the spelling of the layer table wins.
+    Names are told apart without regard to case, as CAD programs do, and to how accents are composed; the spelling of
+    the layer table wins.
     """
 
     def __init__(self, table: Sequence[tuple[str, bool, bool]]) -> None:
@@ -37,7 +39,7 @@ class LayerTable:
 
     def number(self, name: str) -> int:
         """Number of a layer; one that the table does not hold is added, on and thawed."""
-        key = name.casefold()
+        key = folded(name)
         if key not in self._numbers:
             self._numbers[key] = len(self.names)
             self.names.append(name)

@@ -2,7 +2,6 @@
 """Short letterings of a DXF file: what bears a name, and at which scale the sheet says it is drawn."""
 
 import math
-import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -13,15 +12,12 @@ from foparq.read.dxf.facts import LEAKS
 from foparq.read.dxf.sketch import texts
 from foparq.read.dxf.structure import model_entities, paper_entities
 from foparq.read.dxf.text import readable, rendered_text
-
-_LONGEST = 40  #: letters of a name
-_MOST = 200_000  #: names that are kept
-_SCALE = re.compile(r"\b(?:esc|escala|scale)\b\.?\s*[:=]?\s*1\s*[:/]\s*(\d{1,5}(?:[.,]\d+)?)\b", re.IGNORECASE)
+from foparq.read.lettering import LONGEST_NAME, LONGEST_SCALE, MOST_NAMES, scales_in
 
 
 def labels_of(document: Any) -> Labels:  # noqa: ANN401 - ezdxf publishes no useful types
     """Letterings of model space that may name a point: of texts, and of the attributes of inserts."""
-    found = [row for entity in model_entities(document) for row in _labels(entity)][:_MOST]
+    found = [row for entity in model_entities(document) for row in _labels(entity)][:MOST_NAMES]
     return Labels(
         text=texts([text for text, _, _ in found]),
         place=np.array([place for _, place, _ in found], dtype=float).reshape(-1, 3),
@@ -34,11 +30,8 @@ def scales_of(document: Any) -> tuple[StatedScale, ...]:  # noqa: ANN401
     found: set[StatedScale] = set()
     sheet = paper_entities(document)
     for entity in (*model_entities(document), *sheet):
-        found |= {
-            StatedScale(witness="lettering", denominator=float(number.replace(",", ".")), said=text)
-            for text, _, _ in _labels(entity, longest=10 * _LONGEST)
-            for number in _SCALE.findall(text)
-        }
+        for text, _, _ in _labels(entity, longest=LONGEST_SCALE):
+            found |= scales_in(text)
     for entity in sheet:
         ratio = _viewport(entity)
         if ratio:
@@ -46,7 +39,7 @@ def scales_of(document: Any) -> tuple[StatedScale, ...]:  # noqa: ANN401
     return tuple(sorted(found, key=lambda one: (one.witness, one.said, one.denominator)))
 
 
-def _labels(entity: Any, longest: int = _LONGEST) -> Iterator[tuple[str, tuple[float, ...], bool]]:  # noqa: ANN401
+def _labels(entity: Any, longest: int = LONGEST_NAME) -> Iterator[tuple[str, tuple[float, ...], bool]]:  # noqa: ANN401
     """Text, place in the axes of the file, and whether it is the place of an insert."""
     kind = entity.dxftype()
     if kind not in {"TEXT", "MTEXT", "INSERT"}:

@@ -18,6 +18,7 @@ from ezdxf.filemanagement import dxf_file_info, read, readfile
 
 from foparq.errors import UnreadableError, UnsafeError
 from foparq.model.drawing import Repair
+from foparq.read.dxf.codepage import CodePage, code_page_of, taught
 from foparq.read.dxf.damaged import Aside, Depth, set_aside
 from foparq.read.dxf.facts import LEAKS
 from foparq.read.dxf.removed import handle_in, removed_entities
@@ -30,6 +31,7 @@ _SECTION = re.compile(rb"(?:^|\n)[ \t]*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n[ \t]
 _NEAR_LINE = re.compile(r"near line:? (\d+)")
 _TAIL = 256  #: bytes within which the end marker must stand
 _R12 = "AC1009"
+UTF8_SINCE = "AC1021"  #: R2007; the code page of the header no longer counts
 
 _Read = tuple[Any, tuple[Repair, ...]]  #: document, and what it took to read it
 
@@ -59,10 +61,12 @@ def load_document(path: Path, most_bytes: int) -> Loaded:
         If it is too large.
     """
     binary = _sniff(path, most_bytes)
-    with _quiet():
+    page = code_page_of(path, binary=binary)
+    with _quiet(), taught(page):
         document, repairs = _load(path, binary=binary)
     if not binary:
         repairs += _second_sections(path)
+    repairs += _unknown_page(page, document)
     return Loaded(document, repairs, None if binary else _written_handles(path, document))
 
 
@@ -88,6 +92,13 @@ def _second_sections(path: Path) -> tuple[Repair, ...]:
         names = Counter(_SECTION.findall(text))
     twice = sorted(name.decode("ascii", "replace") for name, count in names.items() if count > 1)
     return tuple(Repair(code="section-twice", text=name) for name in twice)
+
+
+def _unknown_page(page: CodePage, document: Any) -> tuple[Repair, ...]:  # noqa: ANN401 - ezdxf.Drawing
+    # From R2007 on files are in UTF-8, and nobody asks for the code page.
+    if not page.unknown or (document.loaded_dxfversion or "") >= UTF8_SINCE:
+        return ()
+    return (Repair(code="code-page-unknown", kind="$DWGCODEPAGE", text=page.stated, detail=str(document.encoding)),)
 
 
 def _refuse_truncated(path: Path) -> None:

@@ -25,14 +25,13 @@ from foparq.read.dxf.gather import Columns, LayerTable, LeftOut
 from foparq.read.dxf.items import place_contents
 from foparq.read.dxf.kinds import ANNOTATIONS, Unseen
 from foparq.read.dxf.labels import labels_of, scales_of
-from foparq.read.dxf.load import load_document
+from foparq.read.dxf.load import UTF8_SINCE, load_document
 from foparq.read.dxf.sketch import Builder, texts
 from foparq.read.dxf.structure import asked, layer_table, paper_entities
-from foparq.read.dxf.text import doubly_encoded, readable
+from foparq.read.dxf.text import readable
 from foparq.read.dxf.units import Lettered, drawing_unit
+from foparq.read.letters import garbled
 from foparq.read.raw import RawDrawing, holds_drawing
-
-_UTF8_SINCE = "AC1021"  #: R2007; the code page of the header no longer counts
 
 
 def read_dxf(
@@ -74,7 +73,7 @@ def _read(path: Path, limits: LimitsSpec, sagitta: float, unit: str | None, *, e
     document = loaded.document
     drawn_in = drawing_unit(document.header, unit)
     version = str(document.loaded_dxfversion or "")
-    encoding = "utf-8" if version >= _UTF8_SINCE else str(document.encoding)
+    encoding = "utf-8" if version >= UTF8_SINCE else str(document.encoding)
     layers = LayerTable(layer_table(document))
     contents = read_contents(document, explode=explode)
     census = count_contents(contents)
@@ -95,7 +94,7 @@ def _read(path: Path, limits: LimitsSpec, sagitta: float, unit: str | None, *, e
         repairs=loaded.repairs,
         skipped=builder.tally.records(),
         bombs=_bombs(model, census, refused, builder),
-        bad_names=tuple(name for name in names if doubly_encoded(name, encoding)),
+        bad_names=tuple(name for name in names if garbled(name, encoding)),
         dimensions=_dimensions(builder.dimensions),
         labels=labels_of(document),
         scales=scales_of(document),

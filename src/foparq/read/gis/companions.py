@@ -4,6 +4,7 @@
 from pathlib import Path
 
 from foparq.errors import UnreadableError, UnsafeError
+from foparq.names import folded
 from foparq.read.guard.paths import fit_to_read
 
 #: endings of the files that belong to a Shapefile, beside ``.shp``
@@ -14,6 +15,8 @@ _SHORT_BYTES = 100_000
 
 def companions(path: Path, limit: int) -> dict[str, Path]:
     """Files that belong to a Shapefile, by ending in small letters: ``{".dbf": ...}``.
+
+    Their names may differ from its own in the case of letters and the composition of accents.
 
     Parameters
     ----------
@@ -30,9 +33,13 @@ def companions(path: Path, limit: int) -> dict[str, Path]:
         If one of them is a link that leads elsewhere, or too large.
     """
     found: dict[str, Path] = {}
-    for other in sorted(path.parent.iterdir()):
+    alike = [other for other in sorted(path.parent.iterdir()) if folded(other.stem) == folded(path.stem)]
+    if sum(other.suffix.casefold() == path.suffix.casefold() for other in alike) > 1:
+        # Two Shapefiles whose names differ in case: each has its own.
+        alike = [other for other in alike if other.stem == path.stem]
+    for other in alike:
         ending = other.suffix.casefold()
-        if other.stem == path.stem and ending in ENDINGS:
+        if ending in ENDINGS and not (ending in found and other.stem != path.stem):
             _hold(path, other, min(limit, _SHORT_BYTES) if ending in _SHORT else limit)
             found[ending] = other
     return found

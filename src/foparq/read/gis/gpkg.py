@@ -9,13 +9,12 @@ from pyogrio.errors import GeometryError
 
 from foparq.errors import ManifestError, UnreadableError
 from foparq.model.drawing import Skipped, SkippedReason
-from foparq.model.items import Items
-from foparq.names import nearest
+from foparq.names import folded, nearest
 from foparq.profile.schema import LimitsSpec
 from foparq.read.gis.crs import unit_of
 from foparq.read.gis.gpkg_curves import STRAIGHT, chords_of
 from foparq.read.gis.gpkg_safety import Contents, Table, inspect
-from foparq.read.gis.items import LayerRows, items_of
+from foparq.read.gis.items import LayerRows, Piece, items_of
 from foparq.read.gis.layers import GDAL_ERRORS, Taken, first_line, hold, read_layer
 from foparq.read.guard.stage import staged
 
@@ -65,7 +64,7 @@ def read_gpkg(path: Path, *, limits: LimitsSpec, sagitta: float, unit: str | Non
         for table in contents.tables
         if table.name not in asked and table.name != _PLACEHOLDER
     ]
-    pieces: list[tuple[Items, str]] = []
+    pieces: list[Piece] = []
     # With its prefix, GDAL opens a GeoPackage as such or not at all.
     with staged({"drawing.gpkg": path}) as link:
         name = f"GPKG:{link}"
@@ -76,9 +75,11 @@ def read_gpkg(path: Path, *, limits: LimitsSpec, sagitta: float, unit: str | Non
             if layer is None:
                 skipped.append(_unsupported(table))
                 continue
-            items, odd = items_of(_straight(path, table, layer, limits, sagitta, unit), prefix=f"{table.name}:")
-            pieces.append((items, layer.system))
-            skipped += odd
+            # The handles of a single drawing need no name of a table before them.
+            prefix = "" if layer.cad is not None and len(tables) == 1 else f"{table.name}:"
+            piece = items_of(_straight(path, table, layer, limits, sagitta, unit), prefix=prefix)
+            pieces.append(piece)
+            skipped += piece.skipped
     return Taken(
         pieces=tuple(pieces), version=contents.version, encoding="UTF-8", skipped=tuple(skipped), layers=contents.layers
     )  # fmt: skip
@@ -123,14 +124,23 @@ def _straight(
 
 def _wanted(path: Path, contents: Contents, wanted: tuple[str, ...]) -> list[Table]:
     readable = [table for table in contents.tables if table.name != _PLACEHOLDER]
+    several = [record for record in contents.skipped if record.reason is SkippedReason.SEVERAL_GEOMETRIES]
+    if not readable and several:
+        example = several[0].name.split(", ")[0]
+        raise UnreadableError(
+            "read.gpkg-several-geometries", file=path.name, key=several[0].layer, value=several[0].name, example=example
+        )
     if not readable:
         found = ", ".join(f"{record.layer} ({record.reason})" for record in contents.skipped) or "-"
         raise UnreadableError("read.gpkg-no-features", file=path.name, value=found)
     if not wanted:
         return readable
-    by_name = {table.name.casefold(): table for table in readable}
+    # Two tables may differ in nothing but the composition of an accent.
+    by_name: dict[str, list[Table]] = {}
+    for table in readable:
+        by_name.setdefault(folded(table.name), []).append(table)
     for name in wanted:
-        if name.casefold() not in by_name:
+        if folded(name) not in by_name:
             near = nearest(name, [table.name for table in readable])
             known = ", ".join(near)
             raise ManifestError(
@@ -140,4 +150,4 @@ def _wanted(path: Path, contents: Contents, wanted: tuple[str, ...]) -> list[Tab
                 known=known,
                 example=f'layers = ["{near[0]}"]',
             )
-    return [by_name[key] for key in sorted({name.casefold() for name in wanted})]
+    return [table for key in sorted({folded(name) for name in wanted}) for table in by_name[key]]

@@ -19,7 +19,8 @@ from urllib.parse import quote
 
 from foparq.errors import UnreadableError, UnsafeError
 from foparq.model.drawing import Skipped, SkippedReason
-from foparq.read.gis.items import LAYER_COLUMNS
+from foparq.read.gis.columns import GEOMETRY_TYPES, TEXT_COLUMNS
+from foparq.read.gis.journal import unsaved
 
 APPLICATION_IDS = {0x47504B47: "GPKG", 0x47503130: "GPKG 1.0", 0x47503131: "GPKG 1.1"}
 _STEPS = 1000  #: instructions of SQLite between two looks at the clock
@@ -86,10 +87,8 @@ def inspect(path: Path, *, seconds: float) -> Contents:
     UnsafeError
         If looking at it takes too long, or its register is itself a program.
     """
-    for ending in ("-wal", "-journal"):
-        journal = path.with_name(path.name + ending)
-        if journal.exists() and journal.stat().st_size:
-            raise UnreadableError("read.gpkg-journal", file=path.name, value=journal.name)
+    if (journal := unsaved(path)) is not None:
+        raise UnreadableError("read.gpkg-journal", file=path.name, value=journal.name)
     with opened(path, seconds) as connection:
         schema = _schema(path.name, connection)
         if "gpkg_contents" not in schema.objects:
@@ -200,12 +199,12 @@ def opened(path: Path, seconds: float, *, longest: int = _LONGEST_TEXT) -> Itera
 def _layers(schema: _Schema) -> tuple[list[Table], list[Skipped]]:
     tables: list[Table] = []
     skipped: list[Skipped] = []
-    geometry = {
-        _small(str(table)): (str(column), str(kind).upper(), _whole(srs))
-        for table, column, kind, srs in schema.rows(
-            "gpkg_geometry_columns", "table_name, column_name, geometry_type_name, srs_id"
-        )
-    }
+    geometry: dict[str, tuple[str, str, int]] = {}
+    registered: dict[str, list[str]] = {}
+    for row in schema.rows("gpkg_geometry_columns", "table_name, column_name, geometry_type_name, srs_id"):
+        key, column = _small(str(row[0])), str(row[1])
+        geometry[key] = (column, str(row[2]).upper(), _whole(row[3]))
+        registered.setdefault(key, []).append(column)
     systems = {
         _whole(srs): (str(organisation).casefold(), _whole(code))
         for srs, organisation, code in schema.rows(
@@ -214,12 +213,15 @@ def _layers(schema: _Schema) -> tuple[list[Table], list[Skipped]]:
     }
     for listed, data_type in schema.rows("gpkg_contents", "table_name, data_type"):
         key = _small(str(listed))
-        column, kind, srs = geometry.get(key, ("", "", 0))
-        reason = _reason(schema, key, str(data_type), column)
+        (column, kind, srs), named = geometry.get(key, ("", "", 0)), ""
+        reason, columns = _reason(schema, key, str(data_type), column), registered.get(key, [])
+        if not reason and len(columns) > 1:
+            reason, named = SkippedReason.SEVERAL_GEOMETRIES, ", ".join(sorted(columns))
         if reason:
-            skipped.append(Skipped(reason=reason, kind=str(data_type), layer=str(listed), count=1))
+            skipped.append(Skipped(reason=reason, kind=str(data_type), layer=str(listed), count=1, name=named))
             continue
         name = schema.objects[key].name
+        skipped += _unlisted_columns(schema, name, column)
         count = f"SELECT count(*) FROM {quoted(name)}"  # noqa: S608 - quoted
         organisation, code = systems.get(srs, ("none", srs))
         undefined = srs in _UNDEFINED or (organisation == "none" and code in _UNDEFINED)
@@ -245,9 +247,19 @@ def _reason(schema: _Schema, key: str, data_type: str, column: str) -> SkippedRe
     return None if _small(column) in known else SkippedReason.NO_GEOMETRY_COLUMN
 
 
+def _unlisted_columns(schema: _Schema, table: str, column: str) -> list[Skipped]:
+    # Columns declared as geometry that the register does not know: no program shows them.
+    others = [
+        (str(row[1]), str(row[2]).upper()) for row in schema.columns(table) if _small(str(row[1])) != _small(column)
+    ]
+    reason = SkippedReason.UNLISTED_GEOMETRY
+    named = [(name, kind) for name, kind in others if kind in GEOMETRY_TYPES]
+    return [Skipped(reason=reason, kind=kind, layer=table, count=1, name=name) for name, kind in named]
+
+
 def _hold_texts(schema: _Schema, table: str) -> None:
     # The text that names a layer is held in memory several times. A longer value than one may be is an error of SQLite.
-    for column in {str(row[1]) for row in schema.columns(table)} & set(LAYER_COLUMNS):
+    for column in {str(row[1]) for row in schema.columns(table)} & set(TEXT_COLUMNS):
         query = f"SELECT total(length({quoted(column)})) FROM {quoted(table)}"  # noqa: S608 - quoted
         try:
             (total,) = schema.connection.execute(query).fetchone()

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
 """Features of a GIS layer as items: one item a part."""
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
 
 import numpy as np
 import shapely
 
-from foparq.columns import Flags, Geometries, Index, Texts
+from foparq.columns import Flags, Geometries, Index, Reals, Texts
 from foparq.model.drawing import Skipped, SkippedReason
-from foparq.model.items import Items, Role, no_items
+from foparq.model.items import Holder, Items, Role, no_items
+from foparq.read.gis.cad import CadColumns, CadRows, alone, places_of, read_cad, roles_of, skipped_rows, unfilled
 
-#: columns whose text is the layer of a row, as CAD programs export it
-LAYER_COLUMNS = ("layer", "Layer", "LAYER", "camada", "Camada", "CAMADA")
 _MULTI = 4  #: shapely's type ids from here on are collections
 _KINDS = np.array(
     ["Point", "LineString", "LineString", "Polygon", "Point", "LineString", "Polygon", "GeometryCollection"],
@@ -40,9 +40,22 @@ class LayerRows:
     wkb: Texts  #: (n,) bytes, or ``None``
     layer: Texts | None  #: (n,) the file's own layer column, if it has one
     paper: Flags  #: (n,) true in the paper space of a CAD export
+    cad: CadColumns | None = None  #: what else a CAD export says of its rows
 
 
-def items_of(layer: LayerRows, *, prefix: str) -> tuple[Items, tuple[Skipped, ...]]:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Piece:
+    """What one layer gave."""
+
+    items: Items
+    skipped: tuple[Skipped, ...]
+    system: str  #: reference system, ``""`` if none
+    words: Texts  #: (k,) letterings of a CAD export
+    places: Reals  #: (k, 3) where they stand
+    on_sheet: Flags  #: (k,) true in paper space
+
+
+def items_of(layer: LayerRows, *, prefix: str) -> Piece:
     """Items of one layer, and what could not become one.
 
     Parameters
@@ -52,35 +65,91 @@ def items_of(layer: LayerRows, *, prefix: str) -> tuple[Items, tuple[Skipped, ..
 
     Returns
     -------
-    items : Items
-        One row a part, in order of feature id and part. ``item`` is prefix and feature id; parts of one feature are
-        told apart by a number from 1: ``"plots:7.2"``. A feature without geometry, or with one that cannot be built
-        (a ring of two points), is a row whose geometry is ``None``; it has the kind of its layer.
-    skipped : tuple of Skipped
-        Surfaces and solids that are no simple features, by kind.
+    Piece
+        Items: one row a part, in order of feature id and part. ``item`` is prefix and feature id; parts of one feature
+        are told apart by a number from 1: ``"plots:7.2"``. In a CAD export the handle stands for the feature id. A
+        feature without geometry, or with one that cannot be built (a ring of two points), is a row whose geometry is
+        ``None``; it has the kind of its layer. Skipped are surfaces and solids that are no simple features, by kind,
+        and what a CAD export holds beside linework.
     """
     geometry: Geometries = shapely.from_wkb(layer.wkb, on_invalid="ignore")
     keep, skipped = _without_exotic(layer, geometry)
+    names = np.full(len(geometry), layer.name, dtype=object)
+    if layer.layer is not None:
+        stated = np.fromiter((isinstance(text, str) and text != "" for text in layer.layer.tolist()), bool, len(names))
+        names[stated] = layer.layer[stated]
+    single = alone(geometry)
+    cad = None if layer.cad is None else read_cad(layer.cad, names, single)
+    if cad is not None and layer.cad is not None:
+        skipped += skipped_rows(cad, names, layer.cad)
+        keep &= cad.left_out == ""
     parts, owner, part = _parts(geometry[keep])
     source = np.flatnonzero(keep)[owner]
     kinds = _kinds(parts, layer.geometry_type)
-    names = np.full(len(source), layer.name, dtype=object)
-    if layer.layer is not None:
-        own = layer.layer[source]
-        stated = np.fromiter((isinstance(text, str) and text != "" for text in own.tolist()), bool, len(own))
-        names[stated] = own[stated]
-    handle = _texts(map(str, layer.fid[source].tolist()))
-    several = np.bincount(owner, minlength=int(keep.sum()))[owner] > 1
+    named = _Named.of(layer, cad)
+    several = np.bincount(named.entity[source])[named.entity[source]] > 1
+    if cad is None:
+        roles, inserts, holders = _mapped(kinds, _ROLES), *([_texts([""] * len(source))] * 2)
+    else:
+        number = _numbered(named.entity[source])
+        part = np.where(cad.insert[source] | (cad.handle[source] != ""), number, part)
+        parts, roles = unfilled(cad.kind[source], parts), roles_of(cad.kind[source], _mapped(kinds, _ROLES), parts)
+        inserts = np.where(cad.insert[source], cad.handle[source], "").astype(object)
+        holders = _held(cad, names)[source]
+        kinds = np.where(cad.kind[source] == "", kinds, cad.kind[source]).astype(object)
     item = _texts(
-        f"{prefix}{fid}.{number}" if many else f"{prefix}{fid}"
-        for fid, number, many in zip(handle.tolist(), part.tolist(), several.tolist(), strict=True)
+        f"{prefix}{name}.{number}" if many else f"{prefix}{name}"
+        for name, number, many in zip(named.item[source].tolist(), part.tolist(), several.tolist(), strict=True)
     )
     paper = layer.paper[source]
-    return Items(
-        geometry=parts, layer=names, kind=kinds, role=_mapped(kinds, _ROLES), item=item, handle=handle,
-        inserts=np.full(len(parts), "", dtype=object), colour=np.full(len(parts), _BY_LAYER, dtype=np.int32),
-        closed=_closed(parts), visible=~paper, paper=paper, holders=np.full(len(parts), "", dtype=object),
-    ), skipped  # fmt: skip
+    items = Items(
+        geometry=parts, layer=names[source], kind=kinds, role=roles, item=item, handle=named.handle[source],
+        inserts=inserts, colour=np.full(len(parts), _BY_LAYER, dtype=np.int32),
+        closed=_closed(parts), visible=~paper, paper=paper, holders=holders,
+    )  # fmt: skip
+    said = np.flatnonzero(np.zeros(len(names), bool) if cad is None else cad.lettering)
+    return Piece(
+        items=items, skipped=skipped, system=layer.system, words=_texts([]) if cad is None else cad.text[said],
+        places=places_of(single[said]), on_sheet=layer.paper[said],
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class _Named:
+    """How the n features of a layer are called."""
+
+    handle: Texts  #: (n,) handle of a CAD export, else the feature id
+    item: Texts  #: (n,) the same, unique
+    entity: Index  #: (n,) number of what parts are counted of: a feature, or all rows of one handle
+
+    @classmethod
+    def of(cls, layer: LayerRows, cad: CadRows | None) -> "_Named":
+        fid = _texts(map(str, layer.fid.tolist()))
+        if cad is None:
+            return cls(fid, fid, np.arange(len(fid)))
+        handle = np.where(cad.handle == "", fid, cad.handle).astype(object)
+        # A handle that stands for several entities, in an export of several drawings, is no id.
+        first = np.unique(cad.run, return_index=True)[1]
+        times = Counter(handle[first].tolist())
+        item = _texts(
+            name if times[name] == 1 else f"{name}~{row}" for name, row in zip(handle, fid[first][cad.run], strict=True)
+        )
+        return cls(handle, item, cad.run)
+
+
+def _numbered(entity: Index) -> Index:
+    """Number of each row among those of its entity, from 1; rows of one follow each other."""
+    return np.arange(len(entity)) - np.searchsorted(entity, entity) + 1
+
+
+def _held(cad: CadRows, layer: Texts) -> Texts:
+    """Inserts that hold the rows of a CAD export; their blocks are not told."""
+    known = np.where(
+        cad.kind == "INSERT", layer, ""
+    )  # of rows that are only a part, the layer is not that of the insert
+    return _texts(
+        str(Holder(name, on, "")) if name else "" for name, on in zip(cad.holder.tolist(), known.tolist(), strict=True)
+    )
 
 
 def join_items(pieces: list[Items]) -> Items:

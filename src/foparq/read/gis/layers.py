@@ -9,13 +9,15 @@ import numpy as np
 import pyogrio.raw
 from pyogrio.errors import CRSError, DataLayerError, DataSourceError, FeatureError, FieldError
 
-from foparq.columns import Flags
+from foparq.columns import Flags, Texts
 from foparq.errors import UnsafeError
-from foparq.model.drawing import Skipped
-from foparq.model.items import Items
-from foparq.read.gis.items import LAYER_COLUMNS, LayerRows
+from foparq.model.drawing import Repair, Skipped
+from foparq.read.gis.cad import CadColumns
+from foparq.read.gis.columns import CAD_COLUMNS, LAYER_COLUMNS, PAPER_COLUMNS, READ_COLUMNS
+from foparq.read.gis.dbf import Encoding
+from foparq.read.gis.items import LayerRows, Piece
 
-_PAPER_COLUMNS = ("PaperSpace", "paperspace", "PAPERSPACE")
+_BYTES = "ISO-8859-1"  #: in which every byte is a letter
 
 #: what GDAL raises about a broken file
 GDAL_ERRORS = (DataSourceError, DataLayerError, FeatureError, FieldError, CRSError, UnicodeDecodeError)
@@ -25,14 +27,17 @@ GDAL_ERRORS = (DataSourceError, DataLayerError, FeatureError, FieldError, CRSErr
 class Taken:
     """What was taken from one file."""
 
-    pieces: tuple[tuple[Items, str], ...]  #: items of each layer and its reference system
+    pieces: tuple[Piece, ...]  #: one for each layer
     version: str
     encoding: str
     skipped: tuple[Skipped, ...]
     layers: tuple[str, ...]  #: every layer of the file
+    repairs: tuple[Repair, ...] = ()
 
 
-def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, called: str = "") -> LayerRows:
+def read_layer(
+    name: str, layer: str | int, most: int, *, undefined: bool, called: str = "", encoding: Encoding | None = None
+) -> LayerRows:
     """One layer.
 
     Parameters
@@ -47,6 +52,8 @@ def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, calle
         True if the file is known to say nothing of its reference system.
     called : str
         Name of the layer for people; that of the table if left out.
+    encoding : Encoding, optional
+        Of its texts; GDAL chooses where it has no name, and knows few names.
 
     Raises
     ------
@@ -58,18 +65,50 @@ def read_layer(name: str, layer: str | int, most: int, *, undefined: bool, calle
     # A condition that is always true makes GDAL count rows instead of believing the file's own count.
     strict = {"where": "1 = 1", "IMMUTABLE": "YES", "NOLOCK": "YES", "LIST_ALL_TABLES": "NO"}
     options: dict[str, Any] = strict if name.startswith("GPKG:") else {}
+    codec = encoding.name if encoding is not None else ""
     meta, fid, wkb, values = pyogrio.raw.read(
-        name, layer=layer, columns=[*LAYER_COLUMNS, *_PAPER_COLUMNS], return_fids=True, max_features=most, **options
+        name,
+        layer=layer,
+        columns=READ_COLUMNS,
+        return_fids=True,
+        max_features=most,
+        encoding=_BYTES if codec else None,
+        **options,
     )
+    if codec:
+        values = [_decoded(column, codec) if column.dtype == object else column for column in values]
     if wkb is None:
         wkb = np.full(len(fid), None, dtype=object)
     columns = dict(zip(meta["fields"], values, strict=True))
-    own = next((columns[key] for key in LAYER_COLUMNS if key in columns and columns[key].dtype == object), None)
-    paper = next((columns[key] for key in _PAPER_COLUMNS if key in columns), None)
+    own = _texts(columns, LAYER_COLUMNS)
+    cad = None if own is None else _cad(columns, len(fid))
     return LayerRows(
         name=called or str(layer), geometry_type=meta["geometry_type"] or "Unknown", fid=fid, wkb=wkb, layer=own,
-        system="" if undefined or not meta["crs"] else meta["crs"], paper=_flags(paper, len(fid)),
+        system="" if undefined or not meta["crs"] else meta["crs"], cad=cad,
+        paper=_flags(next((columns[key] for key in PAPER_COLUMNS if key in columns), None), len(fid)),
     )  # fmt: skip
+
+
+def _decoded(column: Texts, codec: str) -> Texts:
+    """Texts that were read byte by byte; bytes that mean nothing are shown as U+FFFD."""
+    texts = column.copy()
+    texts[:] = [
+        text.encode(_BYTES).decode(codec, "replace") if isinstance(text, str) else text for text in column.tolist()
+    ]
+    return texts
+
+
+def _texts(columns: dict[str, Any], names: tuple[str, ...]) -> Texts | None:
+    return next((columns[key] for key in names if key in columns and columns[key].dtype == object), None)
+
+
+def _cad(columns: dict[str, Any], n: int) -> CadColumns | None:
+    """Columns of a CAD export; ``None`` if the table is none."""
+    found = {key: _texts(columns, names) for key, names in CAD_COLUMNS.items()}
+    if found["subclasses"] is None and found["handle"] is None:
+        return None
+    none: Texts = np.full(n, None, dtype=object)
+    return CadColumns(**{key: none if column is None else column for key, column in found.items()})
 
 
 def _flags(column: np.ndarray | None, n: int) -> Flags:

@@ -6,8 +6,9 @@ Rows become items by these rules:
 - One item a part of a feature. ``item`` is ``"table:fid"`` in a GeoPackage, ``"fid"`` elsewhere, with ``".part"`` added
   where a feature has several parts; ``handle`` is the feature id as written.
 - ``layer`` is the name of the table. Where the table has a text column called ``layer`` or ``camada``, as CAD programs
-  export it, its value is the layer; rows without a value keep the name of the table.
-- Rows of a CAD export with ``PaperSpace`` true are in paper space.
+  export it, its value is the layer; rows without a value keep the name of the table. Names that differ in case only, or
+  in how accents are composed, are one layer.
+- Rows of a CAD export with ``PaperSpace`` true are in paper space; what they are is told by :mod:`foparq.read.gis.cad`.
 - A feature without geometry stays, with ``None``. Measures (M) are dropped, heights are kept, nothing is repaired.
 - Arcs become chords of the stated sagitta.
 """
@@ -16,6 +17,8 @@ import mmap
 import re
 import warnings
 from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -23,24 +26,28 @@ import shapely
 from pyogrio.errors import GeometryError
 
 from foparq.errors import UnreadableError, UnsafeError
-from foparq.model.drawing import Reading, Skipped, SkippedReason
-from foparq.model.items import Items
+from foparq.model.drawing import Labels, Reading, Repair, Skipped, SkippedReason, StatedScale
+from foparq.model.items import Items, Role
+from foparq.names import folded
 from foparq.profile.schema import LimitsSpec
 from foparq.read.gis.companions import companions
 from foparq.read.gis.crs import describe, unit_of
+from foparq.read.gis.dbf import Encoding, encoding_of_dbf
 from foparq.read.gis.gpkg import read_gpkg
-from foparq.read.gis.items import items_of, join_items
+from foparq.read.gis.items import Piece, items_of, join_items
 from foparq.read.gis.layers import GDAL_ERRORS, Taken, first_line, hold, read_layer
 from foparq.read.guard.paths import name_of
 from foparq.read.guard.sniff import Format, format_of
 from foparq.read.guard.stage import staged
+from foparq.read.lettering import LONGEST_NAME, LONGEST_SCALE, MOST_NAMES, scales_in
+from foparq.read.letters import garbled
 from foparq.read.raw import RawDrawing, holds_drawing
 
 _READ = (".shx", ".dbf", ".prj", ".cpg")  #: companions that what is read depends on
 _MOST_COLUMNS = 2_000  #: as in SQLite, and so in a GeoPackage
 _JSON_NAME = re.compile(rb'"([^"\\]*+)"\s*+:')
 _SHX_HEADER, _SHX_RECORD = 100, 8  #: bytes
-_LONGEST_NAME = 40  #: letters of the name of an encoding
+_ELSE = "iso8859-1"  #: in which GDAL reads what nobody names
 
 
 def read_gis(
@@ -83,26 +90,68 @@ def read_gis(
             taken = _read_geojson(path, limits)
         else:
             raise UnreadableError("read.not-gis", file=path.name, value=kind.value)
-    items = join_items([items for items, _ in taken.pieces])
+    items = _one_spelling(join_items([piece.items for piece in taken.pieces]), taken.layers)
     hold(path, "read.too-many-vertices", int(shapely.get_num_coordinates(items.geometry).sum()), limits.vertices)
-    systems = tuple(dict.fromkeys(system for part, system in taken.pieces if len(part)))
+    systems = tuple(dict.fromkeys(piece.system for piece in taken.pieces if len(piece.items)))
+    names = dict.fromkeys([*taken.layers, *items.layer.tolist()])
     reading = Reading(
         version=taken.version,
         encoding=taken.encoding,
+        repairs=taken.repairs,
         skipped=(*taken.skipped, *_on_paper(items)),
+        bad_names=tuple(name for name in names if garbled(name, taken.encoding)),
+        labels=_labels(taken.pieces),
+        scales=_scales(taken.pieces),
         layers=taken.layers,
         crs=", ".join(describe(text) for text in systems if text),
     )
     return RawDrawing(items=items, reading=reading, unit=unit_of(systems or ("",), _bounds(items), unit))
 
 
+def _one_spelling(items: Items, tables: Sequence[str]) -> Items:
+    """Items whose layers are one where their names differ in case or in how accents are composed, as in CAD.
+
+    The spelling of a table wins, else the first in order of letters, whatever the order of the rows.
+    """
+    names = set(items.layer.tolist())
+    spelt: dict[str, str] = {}
+    for name in (*tables, *sorted(names)):
+        spelt.setdefault(folded(name), name)
+    if all(spelt[folded(name)] == name for name in names):
+        return items
+    layer = items.layer.copy()
+    layer[:] = [spelt[folded(name)] for name in items.layer.tolist()]
+    return replace(items, layer=layer)
+
+
 def _on_paper(items: Items) -> tuple[Skipped, ...]:
     # A CAD export keeps the sheet among its rows: a frame, unless nothing else is drawn.
-    reason = SkippedReason.PAPER_SPACE if holds_drawing(items) else SkippedReason.PAPER_SPACE_ONLY
-    found = Counter(zip(items.kind[items.paper].tolist(), items.layer[items.paper].tolist(), strict=True))
+    frame = SkippedReason.PAPER_SPACE if holds_drawing(items) else SkippedReason.PAPER_SPACE_ONLY
+    lettered = items.role[items.paper] == Role.ANNOTATION
+    reasons = np.where(lettered, SkippedReason.PAPER_SPACE.value, frame.value).tolist()
+    columns = (items.kind[items.paper].tolist(), items.layer[items.paper].tolist())
+    found = Counter(zip(reasons, *columns, strict=True))
     return tuple(
-        Skipped(reason=reason, kind=kind, layer=layer, count=count) for (kind, layer), count in sorted(found.items())
+        Skipped(reason=SkippedReason(reason), kind=kind, layer=layer, count=count)
+        for (reason, kind, layer), count in sorted(found.items())
     )
+
+
+def _labels(pieces: Sequence[Piece]) -> Labels | None:
+    """Letterings of a CAD export that may name a point."""
+    if not any(len(piece.words) for piece in pieces):
+        return None
+    words = np.concatenate([piece.words[~piece.on_sheet] for piece in pieces])
+    places = np.concatenate([piece.places[~piece.on_sheet] for piece in pieces])
+    short = np.array([len(text) <= LONGEST_NAME for text in words.tolist()], dtype=bool)
+    chosen = np.flatnonzero(short)[:MOST_NAMES]
+    return Labels(text=words[chosen], place=places[chosen], block=np.zeros(len(chosen), dtype=bool))
+
+
+def _scales(pieces: Sequence[Piece]) -> tuple[StatedScale, ...]:
+    said = {text for piece in pieces for text in piece.words.tolist() if len(text) <= LONGEST_SCALE}
+    found = {scale for text in said for scale in scales_in(text)}
+    return tuple(sorted(found, key=lambda one: (one.said, one.denominator)))
 
 
 def _read_shapefile(path: Path, limits: LimitsSpec) -> Taken:
@@ -113,16 +162,16 @@ def _read_shapefile(path: Path, limits: LimitsSpec) -> Taken:
             "read.shp-incomplete", file=path.name, value=" ".join(missing), example=path.with_suffix(missing[0]).name
         )
     _same_rows(path, beside)
-    encoding = ""
-    if ".cpg" in beside:
-        with beside[".cpg"].open("rb") as stream:
-            encoding = stream.read(_LONGEST_NAME).decode("ascii", "replace").strip()
+    encoding = encoding_of_dbf(beside[".dbf"], beside.get(".cpg"))
     # GDAL would open whatever else has a fitting name.
     files = {"drawing.shp": path, **{f"drawing{ending}": beside[ending] for ending in _READ if ending in beside}}
     with staged(files) as link:
-        return _single(
+        taken = _single(
             path, str(link), limits, undefined=".prj" not in beside, version="ESRI Shapefile", encoding=encoding
         )
+    if not encoding.unknown:
+        return taken
+    return replace(taken, repairs=(Repair(code="code-page-unknown", kind=".cpg", text=encoding.stated, detail=_ELSE),))
 
 
 def _same_rows(path: Path, beside: dict[str, Path]) -> None:
@@ -150,19 +199,28 @@ def _hold_names(path: Path) -> None:
 def _read_geojson(path: Path, limits: LimitsSpec) -> Taken:
     _hold_names(path)
     with staged({"drawing.geojson": path}) as link:
-        return _single(path, f"GeoJSON:{link}", limits, undefined=False, version="GeoJSON", encoding="UTF-8")
+        return _single(
+            path, f"GeoJSON:{link}", limits, undefined=False, version="GeoJSON", encoding=Encoding("UTF-8", "")
+        )
 
 
-def _single(path: Path, name: str, limits: LimitsSpec, *, undefined: bool, version: str, encoding: str) -> Taken:
+def _single(path: Path, name: str, limits: LimitsSpec, *, undefined: bool, version: str, encoding: Encoding) -> Taken:
     # Formats of one layer. One feature more than allowed is asked for, so that too many are noticed.
     try:
-        layer = read_layer(name, 0, limits.entities + 1, undefined=undefined, called=name_of(path.stem))
+        layer = read_layer(
+            name, 0, limits.entities + 1, undefined=undefined, called=name_of(path.stem), encoding=encoding
+        )
     except (GeometryError, *GDAL_ERRORS) as error:
         raise UnreadableError("read.gis-broken", file=path.name, value=first_line(error)) from None
     hold(path, "read.too-many-items", len(layer.fid), limits.entities)
-    items, skipped = items_of(layer, prefix="")
-    pieces = ((items, layer.system),)
-    return Taken(pieces=pieces, version=version, encoding=encoding, skipped=skipped, layers=(layer.name,))
+    piece = items_of(layer, prefix="")
+    return Taken(
+        pieces=(piece,),
+        version=version,
+        encoding=encoding.name.upper() or encoding.stated,
+        skipped=piece.skipped,
+        layers=(layer.name,),
+    )
 
 
 def _bounds(items: Items) -> tuple[float, float, float, float]:

@@ -10,6 +10,7 @@ from itertools import islice
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from foparq.errors import UnreadableError, UnsafeError
+from foparq.names import folded
 
 _SCHEME = re.compile(r"^[A-Za-z][A-Za-z0-9+.\-]*:")
 _SURROGATE = re.compile("[\ud800-\udfff]")  #: stands for bytes that are no UTF-8
@@ -32,7 +33,8 @@ def inside(root: Path, named: str) -> Path:
     -------
     Path
         Absolute, links resolved. It need not exist. Accents may be composed in the manifest and decomposed in the name
-        of the file, as some systems write them, or the other way round.
+        of the file, as some systems write them, or the other way round; a name that differs in the case of letters, as
+        where the delivery was made on Windows, is taken if it is the only such one.
 
     Raises
     ------
@@ -64,7 +66,7 @@ def inside(root: Path, named: str) -> Path:
     if _SCHEME.match(named) and not there:
         raise UnsafeError("read.path-address", file=named, example=example)
     if not there:
-        other = alike(full, lambda name: unicodedata.normalize("NFC", name))
+        other = alike(full, lambda name: unicodedata.normalize("NFC", name)) or alike(full, folded)
         # What it leads to may lie outside, as any other path.
         return inside(root, other.relative_to(home).as_posix()) if other is not None else full
     return full

@@ -6,14 +6,13 @@ what is hidden is delivered. No link to another file is followed, no macro is re
 """
 
 import contextlib
-import unicodedata
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from foparq.errors import UnreadableError, UnsafeError
 from foparq.model.drawing import Skipped, SkippedReason
-from foparq.names import nearest
+from foparq.names import folded, nearest
 from foparq.read.table.grid import Book
 from foparq.read.table.ods import OdsBook
 from foparq.read.table.sheet import Asked, Sheet, sheet_of
@@ -100,7 +99,7 @@ def _chosen(path: Path, sheets: Mapping[str, bool], stated: str | None) -> str:
                 "table.sheet-hidden", file=path.name, value=first, known=known, example=_example(sheets)
             )
         return first
-    found = [name for name in sheets if _plain(name) == _plain(stated)]
+    found = [name for name in sheets if folded(name) == folded(stated)]
     if stated in found or len(found) == 1:
         return stated if stated in found else found[0]
     raise UnreadableError("table.sheet-missing", file=path.name, value=stated, known=known)
@@ -109,7 +108,3 @@ def _chosen(path: Path, sheets: Mapping[str, bool], stated: str | None) -> str:
 def _example(sheets: Mapping[str, bool]) -> str:
     seen: Sequence[str] = [name for name, visible in sheets.items() if visible]
     return f'sheet = "{seen[0] if seen else next(iter(sheets))}"'
-
-
-def _plain(name: str) -> str:
-    return unicodedata.normalize("NFC", name).casefold().strip()

@@ -11,10 +11,11 @@ from foparq.model.inputs import LayerNames
 
 @rule("DOM003", "doubly-encoded-name", size="items", measures=("16",))
 def doubly_encoded_name(names: LayerNames) -> Hits:
-    """Layer whose name was encoded twice, so that accents read as pairs of strange letters.
+    """Layer whose name was encoded twice, so that accents read as pairs of strange letters, or in another encoding.
 
-    A name is at fault if its letters, taken as bytes of the Windows code page, are a longer UTF-8 text read wrongly:
-    ``Ã©ven`` for ``éven``. Such a name matches no pattern of the manifest that is written rightly.
+    A name is at fault if its letters, taken as bytes of the Windows code page or of the one that the file states, are a
+    longer UTF-8 text read wrongly: ``Ã©ven`` for ``éven``; or if it holds bytes that mean nothing in the encoding that
+    the file states, shown as U+FFFD. Such a name matches no pattern of the manifest that is written rightly.
 
     Parameters
     ----------
