@@ -26,6 +26,12 @@ def contract_line(words: Words, record: AuditRecord) -> str:
     return "; ".join(f"{name}: {value}" for name, value in contract_facts(words, record))
 
 
+def contract_sentences(words: Words, record: AuditRecord) -> list[str]:
+    """The same as sentences: one, or none."""
+    line = contract_line(words, record)
+    return [f"{line}."] if line else []
+
+
 def day(words: Words, iso: str) -> str:
     """Calendar day (ISO 8601) as people write it."""
     year, month, number = iso.split("-")

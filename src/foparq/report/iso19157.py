@@ -15,7 +15,7 @@ from lxml.builder import ElementMaker
 
 from foparq.evaluate.measures import measures
 from foparq.evaluate.quality import Element, ElementStatus, Reason, Residual, Verdict
-from foparq.report.contract import contract_line, responsible_party
+from foparq.report.contract import contract_sentences, responsible_party
 from foparq.report.record import AuditRecord
 from foparq.report.residuals import standing_words
 from foparq.report.sentences import detail_name, parameter_name, reason_sentence, specification
@@ -119,11 +119,11 @@ class _Report:
     def _abstract(self) -> str:
         verdict = self.words(f"evaluate.verdict.name.{self.record.quality.verdict.value}")
         key = "evaluate.xml.abstract-loose" if self.record.loose else "evaluate.xml.abstract"
-        quality, contract = self.record.quality, contract_line(self.words, self.record)
-        opening = self.words(key, profile=self._specification(), verdict=verdict) + (
-            f" {contract}." if contract else ""
+        opening = self.words(key, profile=self._specification(), verdict=verdict)
+        quality, contract = self.record.quality, contract_sentences(self.words, self.record)
+        return " ".join(
+            [opening, *contract, *self._sentences(() if self.record.loose else (*quality.why, *quality.remarks))]
         )
-        return " ".join([opening, *self._sentences(() if self.record.loose else (*quality.why, *quality.remarks))])
 
     def _specification(self) -> str:
         record = self.record
