@@ -9,7 +9,7 @@ from foparq.report.rule_texts import digest
 from foparq.report.words import LANGUAGES
 
 #: what a sentence about a finding may name
-FIELDS = {"size", "limit", "layer", "item", "handle", "other", "inserts", "source", "told"}
+FIELDS = {"size", "limit", "layer", "item", "handle", "other", "other_layer", "inserts", "source", "told"}
 
 
 def placeholders(text: str) -> set[str]:

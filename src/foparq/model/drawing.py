@@ -211,6 +211,7 @@ class Drawing(Part):
     facade: str = ""
     classes: dict[str, str] = field(default_factory=dict)  #: layer pattern to feature class
     areas: tuple[str, ...] = ()  #: patterns of the layers whose closed lines bound areas of a coverage
+    bind: tuple[tuple[str, ...], ...] = ()  #: groups of layer patterns that are drawn as one
     heard: tuple[Heard, ...] = ()  #: what other files of the delivery say of its unit
     confirmed: frozenset[str] = frozenset()  #: what a person confirmed of it: ``unit``, ``plane``
 

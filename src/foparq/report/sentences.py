@@ -34,7 +34,7 @@ def finding_sentences(words: Words, findings: Findings, rows: Index) -> list[str
     -------
     list of str, k
         ``rules.CODE.finding`` with ``size``, ``limit`` (quantities), ``layer``, ``item``, ``handle``, ``other``,
-        ``inserts``, ``source`` and ``told`` (a repair) filled in.
+        ``other_layer``, ``inserts``, ``source`` and ``told`` (a repair) filled in.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def _column(words: Words, findings: Findings, field: str, rows: Index) -> list[s
     return [quantity(value, unit) for value, unit in zip(values, findings.unit[rows].tolist(), strict=True)]
 
 
-_TEXTS = frozenset({"layer", "item", "handle", "other", "inserts", "source"})
+_TEXTS = frozenset({"layer", "item", "handle", "other", "other_layer", "inserts", "source"})
 _FIELDS = _TEXTS | {"size", "limit", "told"}
 
 

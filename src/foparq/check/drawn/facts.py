@@ -11,10 +11,10 @@ import numpy as np
 import shapely
 
 from foparq.check.drawn.unit_evidence import unit_evidence
-from foparq.check.layers import matches
 from foparq.model.drawing import Drawing
 from foparq.model.inputs import Bombs, HiddenItems, LayerNames, LayerPatterns, Named, Repairs, UnitEvidence
 from foparq.model.items import holders_of
+from foparq.model.layers import matches
 
 NO_ROW = -1  #: the statement is about no item
 #: statements that are there to be found: none of them means that the file was looked at

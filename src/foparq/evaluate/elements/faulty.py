@@ -53,7 +53,8 @@ def faulty_rate(spec: FaultyRateSpec, evidence: Evidence) -> tuple[Element, ...]
     parameters = (
         ("faulty", float(found.faulty), "items"), ("checked", float(found.checked), "items"),
         ("set-aside", float(found.aside), "items"), ("not-run-on", float(found.unrun), "items"),
-        ("too-small", float(found.small), "items"), *_by_length(found), *iso_counts(found),
+        ("too-small", float(found.small), "items"), ("drawn-again", float(found.again), "items"),
+        *_by_length(found), *iso_counts(found),
     )  # fmt: skip
     made = element(
         spec, _MEASURE, judgement, scope=evidence.files("drawing"), n=found.checked, value=value, limit=limit,
