@@ -38,6 +38,8 @@ class Columns:
     def __init__(self, drawing: Drawing, *, hidden: bool) -> None:
         items = drawing.items
         seen = ~items.paper & (items.visible | hidden)
+        if drawing.ignored:
+            seen &= ~np.isin(items.layer, list(drawing.ignored))
         rows = np.flatnonzero(seen & np.isin(items.role, [Role.LINE, Role.AREA, Role.POINT]))
         layer, item = items.layer[rows].astype(str), items.item[rows].astype(str)
         self.drawing = drawing

@@ -86,7 +86,8 @@ def _layer_names(drawing: Drawing) -> LayerNames:
 
 def _layer_patterns(drawing: Drawing) -> LayerPatterns:
     layers = all_layers(drawing)
-    patterns = sorted({*drawing.classes, *drawing.areas})
+    # What is left out and is not there leaves nothing out; what binds and is not there leaves a fault untold.
+    patterns = sorted({*drawing.classes, *drawing.areas, *(pattern for group in drawing.bind for pattern in group)})
     matched = [any(matches(layer, (pattern,)) for layer in layers) for pattern in patterns]
     return LayerPatterns(matched=np.array(matched, dtype=bool), **_about_file(patterns, [""] * len(patterns)))
 

@@ -3,6 +3,7 @@
 
 from foparq.evaluate.evidence import Evidence, Judgement, Parameters, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
+from foparq.evaluate.left_out import left_out_doubts
 from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.tally import (
     Tally,
@@ -84,12 +85,13 @@ def _judge(spec: FaultyRateSpec, evidence: Evidence, found: Tally, limit: float)
         remarks = (*remarks, because("faulty.free", element=name, n=free))
     if any(why is Because.CRASHED for why, _ in found.broken):
         return judged(ElementStatus.UNDECIDED, *broken, *remarks)
+    hidden = (*unseen(evidence, name), *left_out_doubts(evidence, name))
     if found.faulty / (found.checked + found.unrun) > limit:
-        return judged(ElementStatus.FAIL, because("faulty.fail", **fields), *broken, *unseen(evidence, name), *remarks)
+        return judged(ElementStatus.FAIL, because("faulty.fail", **fields), *broken, *hidden, *remarks)
     if found.absent:
         absent = because("checks.absent", element=name, rules=list(found.absent))
         return judged(ElementStatus.NOT_ASSESSED, absent, *broken, *remarks)
-    doubts = [*broken, *unseen(evidence, name)]
+    doubts = [*broken, *hidden]
     if (found.faulty + found.aside) / found.checked > limit:
         doubts.append(because("faulty.aside", aside=found.aside, items=list(found.unjudged[:10]), **fields))
     if doubts:
