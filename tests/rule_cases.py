@@ -13,6 +13,7 @@ from foparq.check.registry import all_rules
 from foparq.check.rule import Rule
 from foparq.findings.hits import Hits
 from foparq.model.inputs import Areas, Features, Lines, Named, areas_of, features_of, lines_of
+from foparq.model.layers import bonds
 from foparq.profile.schema import LineworkSpec
 from foparq.units import parse_quantity
 
@@ -79,6 +80,10 @@ def _columns(subject: type, given: dict[str, Any]) -> Any:
         made = make([text or None for text in given[name]])
     if "bounds" in given:
         made = replace(made, bounds=np.isin(np.arange(len(made)), given["bounds"]))
+    if "layers" in given:
+        layers = np.array(given["layers"], dtype=object)
+        bond = bonds(layers, given.get("classes", {}), given.get("bind", []))
+        made = replace(made, layer=layers, **({"bond": bond} if subject is Lines else {}))
     if "item" in given:
         made = replace(made, row=np.array(given["item"]))
     return made

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from foparq.check.layers import matches
+from foparq.model.layers import matches
 from foparq.names import folded, of_kind, unaccented
 
 PLURALS = [

@@ -26,7 +26,7 @@ Plant = Callable[..., Findings]
 LAYERS = ("flags_p", "flags_l", "flags_a")
 COLUMNS = [
     "reason", "featid", "key", "rule", "name", "severity", "source", "layer", "item", "handle", "inserts", "other",
-    "x", "y", "z", "size", "unit", "limit", "message", "waived",
+    "other_layer", "x", "y", "z", "size", "unit", "limit", "message", "waived",
 ]  # fmt: skip
 
 

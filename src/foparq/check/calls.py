@@ -119,6 +119,7 @@ class Judged:
     inputs: tuple[Named, ...]
     aside: tuple[Flags, ...]  #: for each input: rows that stay as neighbours of others and are not judged
     unjudged: Index  #: rows of the part's items that are of the kind and not judged, distinct
+    again: Index  #: rows of the part's items that only repeat what others draw, distinct
     named: tuple[SetAside, ...]
 
 
@@ -126,11 +127,15 @@ def judged(call: Call, rules: Mapping[str, Rule], outcomes: Sequence[Outcome], s
     """Inputs of a call: without repetitions, with what required rules found at fault set aside from judgement."""
     blamed = {code: _faulty(outcomes, code) for code in call.rule.requires}
     repeated = union(*(rows for code, rows in blamed.items() if rules[code].repeats))
+    again = repeated[:0]
+    if call.rule.once:
+        within = call.tolerances[call.rule.once]
+        again = subject.drawn_again(call.rule.subject, call.layers[0], repeated, within)
     at_fault = union(*(rows for code, rows in blamed.items() if not rules[code].repeats))
     inputs: list[Named] = []
     aside: list[Flags] = []
     for (_, kind), layers in zip(call.rule.inputs, call.layers, strict=True):
-        rows = subject.without(kind, layers, repeated)
+        rows = subject.without(kind, layers, union(repeated, again))
         inputs.append(rows)
         aside.append(np.isin(rows.row, at_fault))
     first = subject.take(call.rule.subject, call.layers[0])
@@ -138,7 +143,7 @@ def judged(call: Call, rules: Mapping[str, Rule], outcomes: Sequence[Outcome], s
     blamed_here = np.intersect1d(union(*blamed.values()), union(first.rows.row), assume_unique=True)
     unjudged = union(unfit, blamed_here)
     named = _named(subject, unfit, blamed, blamed_here, _telling(call, rules, outcomes))
-    return Judged(tuple(inputs), tuple(aside), unjudged, named)
+    return Judged(tuple(inputs), tuple(aside), unjudged, again, named)
 
 
 def _faulty(outcomes: Sequence[Outcome], code: str) -> Index:

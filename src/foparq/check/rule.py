@@ -32,6 +32,7 @@ class Rule:
     requires: tuple[str, ...]  #: codes; an item on which one of them found a fault is set aside
     preview: bool  #: reported as a note, cannot reject
     repeats: bool  #: what it finds at fault repeats another item: dependants do not see it
+    once: str  #: tolerance within which linework that several layers draw alike is seen once; ``""``: all is seen
 
     @property
     def subject(self) -> type:
@@ -64,6 +65,7 @@ def rule(
     requires: tuple[str, ...] = (),
     preview: bool = False,
     repeats: bool = False,
+    once: str = "",
 ) -> Callable[[Check], Check]:
     """Declare a function as a rule.
 
@@ -83,6 +85,9 @@ def rule(
         True until the rule was compared over a corpus.
     repeats : bool
         True if a faulty item of this rule only repeats another: rules that require this one do not see it at all.
+    once : str
+        Name of a tolerance. What only repeats, within it, what another layer draws is not seen: no end meets its own
+        copy, whatever layer that is on.
 
     Returns
     -------
@@ -97,11 +102,12 @@ def rule(
 
     def declare(check: Check) -> Check:
         inputs, tolerances = _read_signature(check, code)
-        if limit and limit not in dict(tolerances):
-            raise RuleError("rule.limit", code=code, limit=limit)
+        for used in filter(None, (limit, once)):
+            if used not in dict(tolerances):
+                raise RuleError("rule.limit", code=code, limit=used)
         record = Rule(
             code=code, name=name, check=check, inputs=inputs, tolerances=tolerances, size_unit=size, limit=limit,
-            measures=measures, requires=requires, preview=preview, repeats=repeats,
+            measures=measures, requires=requires, preview=preview, repeats=repeats, once=once,
         )  # fmt: skip
         check.rule = record  # type: ignore[attr-defined]
         return check

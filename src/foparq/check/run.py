@@ -207,7 +207,7 @@ def _looked(
     outcome = replace(outcome, parameters=call.parameters, undeclared=undeclared)
     seen = judged(call, rules, outcomes, subject)
     small = subject.too_small(union(seen.inputs[0].row, seen.unjudged), visible)
-    outcome = replace(outcome, unjudged=seen.unjudged, aside=seen.named, small=small)
+    outcome = replace(outcome, unjudged=seen.unjudged, aside=seen.named, small=small, again=seen.again)
     empty = not any(len(rows) for rows in seen.inputs) and not subject.examined(call.rule.subject)
     if empty and not len(seen.unjudged):
         return replace(outcome, because=Because.NOTHING), None

@@ -94,6 +94,10 @@ class Subject(ABC):
             self._reduced[key] = whole.take(kept)
         return self._reduced[key]
 
+    def drawn_again(self, kind: type, layers: Patterns, rows: Index, within: float) -> Index:  # noqa: ARG002 - kinds that know layers use it
+        """Rows of the part's items that only repeat, within metres, what another layer draws; ``rows`` are left out."""
+        return rows[:0]
+
     @cached_property
     def _reduced(self) -> dict[tuple[type, Patterns, bytes], Named]:
         return {}

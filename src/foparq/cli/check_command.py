@@ -41,6 +41,8 @@ def command(say: Words) -> click.Command:
                 help=say("cli.check.plane"),
             ),
             click.Option(["--areas"], metavar="LAYER", multiple=True, help=say("cli.check.areas")),
+            click.Option(["--bind"], metavar="LAYER,LAYER", multiple=True, help=say("cli.check.bind")),
+            click.Option(["--ignore-layers"], metavar="LAYER", multiple=True, help=say("cli.check.ignore-layers")),
             click.Option(["--select"], metavar="RULE", multiple=True, help=say("cli.check.select")),
             click.Option(["--ignore"], metavar="RULE", multiple=True, help=say("cli.check.ignore")),
             click.Option(

@@ -24,8 +24,8 @@ from foparq.units import parse_length_unit, parse_scale
 
 def check_work(
     say: Words, *, files: tuple[Path, ...], profile: str, scale: str | None, unit: str | None, plane: str | None,
-    areas: tuple[str, ...], select: tuple[str, ...], ignore: tuple[str, ...], settings: tuple[str, ...],
-    out: Path | None, form: str,
+    areas: tuple[str, ...], bind: tuple[str, ...], ignore_layers: tuple[str, ...], select: tuple[str, ...],
+    ignore: tuple[str, ...], settings: tuple[str, ...], out: Path | None, form: str,
 ) -> int:  # fmt: skip
     """Check loose drawings, tell what was found; returns the exit code."""
     chosen = _profile(profile, select, ignore, settings)
@@ -41,6 +41,8 @@ def check_work(
     with progress_on_stderr(say) as progress:
         done = check_files(
             files, profile=chosen, scale=parse_scale(stated), unit=unit, plane=plane, areas=areas,
+            bind=tuple(_patterns(one) for one in bind),
+            ignore_layers=tuple(pattern for one in ignore_layers for pattern in _patterns(one)),
             language=say.language, progress=progress,
         )  # fmt: skip
         written = Written(record=done.record, paths=(), log=done.log)
@@ -50,6 +52,11 @@ def check_work(
     if out is None and written.log:
         click.echo(log_text(written.log), err=True)
     return int(exit_of(written.record.quality))
+
+
+def _patterns(text: str) -> tuple[str, ...]:
+    """Layer patterns that commas part."""
+    return tuple(part.strip() for part in text.split(",") if part.strip())
 
 
 def _profile(name: str, select: Sequence[str], ignore: Sequence[str], settings: Sequence[str]) -> Profile:

@@ -5,6 +5,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 from foparq.evaluate.evidence import Evidence, named_parts
+from foparq.evaluate.left_out import left_out, left_out_doubts
 from foparq.evaluate.quality import Element, QualityReport, Reason, Verdict, because, some
 from foparq.evaluate.tally import where_broken
 from foparq.evaluate.verdict import crashes, lost_files
@@ -29,7 +30,9 @@ def conclude_files(profile: Profile, evidence: Evidence, elements: Sequence[Elem
         verdict, why = Verdict.UNDECIDED, doubts
     else:
         verdict, why = Verdict.ACCEPTED, [because("files.none")]
-    return QualityReport(verdict=verdict, why=tuple(why), elements=tuple(elements), refused=evidence.refused)
+    return QualityReport(
+        verdict=verdict, why=tuple(why), remarks=left_out(evidence), elements=tuple(elements), refused=evidence.refused
+    )
 
 
 def _not_run(evidence: Evidence) -> list[Reason]:
@@ -54,6 +57,7 @@ def _unseen(evidence: Evidence) -> list[Reason]:
             why.append(because("files.unseen", file=part.path, parts=hidden))
         if not any(_saw(outcome) for outcome in evidence.outcomes if outcome.source == part.path):
             why.append(because("files.nothing", file=part.path))
+    why += left_out_doubts(evidence)
     if not evidence.delivery.parts and not evidence.refused:
         why.append(because("files.no-drawing"))
     return why

@@ -34,6 +34,7 @@ class Tally:
     found: int  #: faults
     unrun: int  #: features of drawings on which none of the rules ran
     small: int  #: features too small to be seen, and not at fault: no part of the features checked
+    again: int  #: features that only repeat what another layer draws, and not at fault: likewise
     extent: (
         tuple[float, float] | None
     )  #: length of what is at fault, and of all linework, metres; ``None`` if it has none
@@ -78,6 +79,7 @@ def tally(evidence: Evidence, names: Sequence[str]) -> Tally:
         found=sum(outcome.found for outcome in counted),
         unrun=sum(part.unrun for part in parts),
         small=sum(part.small for part in parts),
+        again=sum(part.again for part in parts),
         extent=_extent(evidence, counted),
         undeclared=tuple(sorted({(one.source, one.undeclared) for one in counted if one.undeclared})),
         parts=tuple(row for row in told if row[2]) if len(told) > 1 else (),
@@ -163,26 +165,28 @@ class _Part:
     aside: int
     unrun: int
     small: int
+    again: int
 
 
 def _of_part(source: str, counted: Sequence[Outcome], size: int | None) -> _Part:
     here = [outcome for outcome in counted if outcome.source == source]
     rows = _distinct(outcome.faulty for outcome in here)
     small = _sound(rows, here)
+    again = np.setdiff1d(_distinct(outcome.again for outcome in here), union(rows, small), assume_unique=True)
     seen = max(
         (_seen([one for one in here if one.name == name], rows) for name in {one.name for one in here}), default=0
     )
-    checked = max(len(rows), seen if size is None else min(seen, size - len(small)))
+    checked = max(len(rows), (seen if size is None else min(seen, size - len(small))) - len(again))
     unjudged = np.setdiff1d(_distinct(outcome.unjudged for outcome in here), rows, assume_unique=True)
     ran = any(outcome.status in {Status.CLEAN, Status.FAULTY} for outcome in here)
     idle = all(outcome.because is Because.NOTHING for outcome in here)
     unrun = 0 if ran or idle else max(0, (size or 0) - checked)
-    return _Part(checked, len(rows), len(unjudged), unrun, len(small))
+    return _Part(checked, len(rows), len(unjudged), unrun, len(small), len(again))
 
 
 def _seen(mine: Sequence[Outcome], faulty: Index) -> int:
-    """Features that one rule looked at or set aside, without those that nobody can see."""
-    return sum(outcome.checked + outcome.skipped for outcome in mine) - len(_sound(faulty, mine))
+    """Features that one rule looked at, knew by a copy or set aside, without those that nobody can see."""
+    return sum(outcome.checked + len(outcome.again) + outcome.skipped for outcome in mine) - len(_sound(faulty, mine))
 
 
 def _sound(faulty: Index, outcomes: Sequence[Outcome]) -> Index:

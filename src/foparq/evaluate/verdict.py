@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from foparq.evaluate.decisions import dated
 from foparq.evaluate.diagnosis import diagnosis
 from foparq.evaluate.evidence import Evidence
+from foparq.evaluate.left_out import left_out
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
 from foparq.evaluate.remarks import basis, deciding, remarks_on
 from foparq.evaluate.scale import scale_doubts
@@ -41,7 +42,7 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     if not required:
         doubts.append(because("verdict.nothing-required"))
     beside: list[Sequence[Reason]] = [remarks_on(element, deciding(element)) for element in opened]
-    beside.append(_confirmed(evidence))
+    beside += [_confirmed(evidence), left_out(evidence)]
     doubted, remarked = scale_doubts(profile, evidence)
     if doubted:
         failing = _together(basis(element) for element in failed)

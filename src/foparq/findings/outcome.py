@@ -54,6 +54,7 @@ class Outcome:
     faulty: Index  #: rows of the part's items at fault, distinct
     unjudged: Index = field(default_factory=_nothing)  #: rows of the part's items that were set aside, distinct
     small: Index = field(default_factory=_nothing)  #: rows of the part's items it concerns, too small to be seen
+    again: Index = field(default_factory=_nothing)  #: rows of the part's items that only repeat others: judged once
     aside: tuple[SetAside, ...] = ()  #: the first of them, those that the rule cannot work with before others
     because: Because = Because.RAN
     names: tuple[str, ...] = ()  #: what ``because`` speaks of: required rules

@@ -29,7 +29,7 @@ class _Alignments(NamedTuple):
     sign: Index  #: (k,) 1 in the same direction, -1 backwards
 
 
-def duplicate_groups(lines: Polylines, *, coincide: float) -> Index:
+def duplicate_groups(lines: Polylines, *, coincide: float, apart: Index | None = None) -> Index:
     """Groups of lines of the same shape.
 
     Two lines have the same shape if, followed from end to end, in the same direction or one of them backwards, they are
@@ -41,6 +41,8 @@ def duplicate_groups(lines: Polylines, *, coincide: float) -> Index:
     lines : Polylines, n lines
     coincide : float, metres
         Distance up to which two places are one.
+    apart : (n,) int, optional
+        Lines with different numbers are not compared.
 
     Returns
     -------
@@ -53,13 +55,17 @@ def duplicate_groups(lines: Polylines, *, coincide: float) -> Index:
     member is compared with those not yet found: a hundred thousand copies cost one round. O(n log n) for lines of
     different boxes. Additional vertices on a straight piece change nothing.
     """
-    return lines.kept(("duplicates", coincide), lambda: _groups(lines, coincide + lines.slack))
+    if apart is None or not len(apart) or (apart == apart[0]).all():
+        apart = np.zeros(len(lines), dtype=np.intp)
+    key = ("duplicates", coincide, apart.tobytes() if apart.any() else b"")
+    return lines.kept(key, lambda: _groups(lines, apart, coincide + lines.slack))
 
 
-def _groups(lines: Polylines, within: float) -> Index:
+def _groups(lines: Polylines, apart: Index, within: float) -> Index:
     # Lines equal but for rounding speak once, by their first.
-    speaker = _equal_but_for_rounding(lines)
-    label = np.where(speaker == np.arange(len(lines)), _candidates(lines, within), -1)
+    speaker = _equal_but_for_rounding(lines, apart)
+    near = np.unique(np.stack([_candidates(lines, within), apart]), axis=1, return_inverse=True)[1].ravel()
+    label = np.where(speaker == np.arange(len(lines)), near, -1)
     crowded = np.flatnonzero((label >= 0) & (np.bincount(label + 1)[label + 1] > 1))
     members = crowded[np.argsort(label[crowded], kind="stable")]
     _, crowd = np.unique(label[members], return_inverse=True)
@@ -67,7 +73,7 @@ def _groups(lines: Polylines, within: float) -> Index:
     return components(len(lines), np.concatenate([i, speaker]), np.concatenate([j, np.arange(len(lines))]))
 
 
-def _equal_but_for_rounding(lines: Polylines) -> Index:
+def _equal_but_for_rounding(lines: Polylines, apart: Index) -> Index:
     """First line (n,) that has the same vertices in the same order; often the line itself."""
     grid = 4 * lines.slack
     rounded = np.round(np.column_stack([lines.plane, lines.depth]) / grid)
@@ -80,7 +86,8 @@ def _equal_but_for_rounding(lines: Polylines) -> Index:
     number *= place.astype(np.uint64) * np.uint64(2) + np.uint64(1)
     total = np.concatenate([np.zeros(1, dtype=np.uint64), np.cumsum(number, dtype=np.uint64)])
     size = np.diff(lines.offsets)
-    name = np.column_stack([total[lines.offsets[1:]] - total[lines.offsets[:-1]], size.astype(np.uint64)])
+    named = total[lines.offsets[1:]] - total[lines.offsets[:-1]]
+    name = np.column_stack([named, size.astype(np.uint64), apart.astype(np.uint64)])
     _, first, inverse = np.unique(name, axis=0, return_index=True, return_inverse=True)
     leader = first[inverse.ravel()]
     # Equal names are a hint; the vertices decide.

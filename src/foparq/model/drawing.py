@@ -17,6 +17,8 @@ class SkippedReason(StrEnum):
     """Why things of a file reach no check; each is an id in the ``report`` catalogue under ``skipped.``."""
 
     # of any drawing
+    IGNORED_LAYER = "ignored-layer"  #: a person says that the layer is not to be checked
+    NOT_PLOTTED = "not-plotted"  #: on a layer that is never plotted
     MALFORMED = "malformed"
     NO_GEOMETRY = "no-geometry"
     PAPER_SPACE = "paper-space"  #: beside a drawing in model space: frames, stamps, viewports
@@ -70,10 +72,12 @@ _NO_LINEWORK = frozenset({
     SkippedReason.ABOVE_HEADER,  # a remark in a table
     SkippedReason.ATTRIBUTES,  # rows without a place
     SkippedReason.DEGENERATE,  # no extent: nobody sees it in CAD either
+    SkippedReason.IGNORED_LAYER,  # somebody's statement: evaluated by itself
     SkippedReason.IMAGE,  # the photograph that was drawn over
     SkippedReason.INFINITE_LINE,  # an aid of construction, not plotted as drawing
     SkippedReason.NO_GEOMETRY,  # nothing is drawn
     SkippedReason.NOT_ASKED,  # the manifest names what is delivered
+    SkippedReason.NOT_PLOTTED,  # no sheet shows it: evaluated by itself where it is most of the drawing
     SkippedReason.OLE,  # a table or text of another program
     SkippedReason.PAPER_SPACE,  # lettering of the sheet, while the drawing stands in model space
     SkippedReason.RASTER,  # tiles of an image
@@ -209,6 +213,7 @@ class Reading:
     scales: tuple[StatedScale, ...] = ()
     layers: tuple[str, ...] = ()  #: every layer of the file, also the empty ones
     hidden_layers: tuple[str, ...] = ()  #: off or frozen layers
+    unplotted_layers: tuple[str, ...] = ()  #: layers that the file says not to plot
     crs: str = ""  #: coordinate reference system, ``"EPSG:31982"``
 
 
@@ -223,6 +228,8 @@ class Drawing(Part):
     facade: str = ""
     classes: dict[str, str] = field(default_factory=dict)  #: layer pattern to feature class
     areas: tuple[str, ...] = ()  #: patterns of the layers whose closed lines bound areas of a coverage
+    bind: tuple[tuple[str, ...], ...] = ()  #: groups of layer patterns that are drawn as one
+    ignored: frozenset[str] = frozenset()  #: layers that are neither judged nor linework that others may meet
     heard: tuple[Heard, ...] = ()  #: what other files of the delivery say of its unit
     confirmed: frozenset[str] = frozenset()  #: what a person confirmed of it: ``unit``, ``plane``
 

@@ -14,7 +14,10 @@ import numpy as np
 import shapely
 
 from foparq.columns import Flags, Geometries, Index, Reals, Texts
+from foparq.geom.adjoining import adjoining
 from foparq.geom.polylines import Polylines
+from foparq.geom.repeats import drawn_again
+from foparq.model.layers import bonds
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,15 +58,37 @@ class Lines(Named):
     bounds: Flags  #: (n,) true for the boundary of an area: neighbours may share it
     #: (n,) the inserts that hold it, from the outermost inward; each cell of an array by itself. Left out: ``inserts``
     holders: Texts = field(default_factory=lambda: np.empty(0, dtype=object))
+    #: (n,) equal numbers on layers that bind: what is drawn there is drawn as one. Left out: by the names of the layers
+    bond: Index = field(default_factory=lambda: np.empty(0, dtype=np.intp))
 
     def __post_init__(self) -> None:
         if len(self.holders) != len(self.geometry):
             object.__setattr__(self, "holders", self.inserts)
+        if len(self.bond) != len(self.geometry):
+            object.__setattr__(self, "bond", bonds(self.layer, {}, ()))
 
     @cached_property
     def polylines(self) -> Polylines:
         """The same lines as coordinate columns with a spatial index, built once."""
         return Polylines.of(self.geometry)
+
+    @cached_property
+    def names(self) -> Index:
+        """(n,) equal numbers on layers of one name."""
+        return bonds(self.layer, {}, ())
+
+    def adjoining(self, coincide: float) -> Flags:
+        """(n,) closed lines of the layers whose closed lines mostly share borders, and that are not known as areas."""
+        table = self.polylines
+        return table.kept(
+            ("adjoining", coincide),
+            lambda: adjoining(table, self.geometry, self.names, self.bounds, coincide=coincide),
+        )
+
+    def drawn_again(self, coincide: float) -> Flags:
+        """(n,) lines that only repeat what another one draws on a layer that does not bind with theirs."""
+        table = self.polylines
+        return table.kept(("again", coincide), lambda: drawn_again(table, self.bounds, self.bond, coincide=coincide))
 
 
 @dataclass(frozen=True, kw_only=True)

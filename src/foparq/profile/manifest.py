@@ -17,6 +17,13 @@ def _known_unit(text: object) -> str:
     return str(text)
 
 
+def _groups(value: object) -> object:
+    """Groups of patterns; patterns alone are one group."""
+    if isinstance(value, list | tuple) and value and all(isinstance(part, str) for part in value):
+        return [value]
+    return value
+
+
 #: no building is larger than its planet
 Ordinate = Annotated[float, Field(ge=-1e8, le=1e8, allow_inf_nan=False)]
 Language = Literal["pt-BR", "en"]
@@ -46,6 +53,10 @@ class DrawingSection(Strict):
     facade: str = ""
     classes: Mapping[str, str] = Field(default_factory=dict)  #: layer pattern to feature class
     areas: tuple[str, ...] = ()  #: layers whose closed lines bound areas that cover without gap or overlap
+    bind: Annotated[
+        tuple[tuple[str, ...], ...], BeforeValidator(_groups)
+    ] = ()  #: groups of layers that are drawn as one
+    ignore_layers: tuple[str, ...] = ()  #: layers that are not checked
     layers: tuple[str, ...] = ()  #: tables of a GeoPackage to read; all if left out
 
 

@@ -39,6 +39,7 @@ from foparq.read.intake import (
     take_unnamed,
     take_unused,
 )
+from foparq.read.left_out import left_out
 from foparq.read.raw import RawDrawing
 from foparq.read.statements import confirmed, confirms
 from foparq.read.table.extent import extent_of
@@ -131,6 +132,8 @@ def read_loose(
     unit: str | None,
     plane: str | None,
     areas: tuple[str, ...] = (),
+    bind: tuple[tuple[str, ...], ...] = (),
+    ignore_layers: tuple[str, ...] = (),
     progress: Progress | None = None,
 ) -> tuple[Delivery, tuple[str, ...]]:
     """Drawings without a manifest, named as they are given.
@@ -147,6 +150,10 @@ def read_loose(
         ``"xy"``, ``"xz"``, ``"yz"`` or ``"fit"``, for all of them.
     areas : tuple of str
         Patterns of the layers whose closed lines bound areas.
+    bind : tuple of tuples of str
+        Groups of patterns of the layers that are drawn as one.
+    ignore_layers : tuple of str
+        Patterns of the layers that are not checked.
 
     Returns
     -------
@@ -157,7 +164,8 @@ def read_loose(
     sweep()
     for path in paths:
         name = name_of(path.as_posix())
-        section = DrawingSection.model_validate({"path": name, "unit": unit, "plane": plane, "areas": areas})
+        said = {"unit": unit, "plane": plane, "areas": areas, "bind": bind, "ignore_layers": ignore_layers}
+        section = DrawingSection.model_validate({"path": name, **said})
         _drawing(intake, section, name, path.resolve)
     take_profile(intake, Path())
     return Delivery(title="", sources=tuple(intake.sources), parts=tuple(intake.drawings)), tuple(intake.crashes)
@@ -227,20 +235,24 @@ def _drawing(
         raise ManifestError(error.message, **{**error.fields, "file": name}) from None
     else:
         status = SourceStatus.RECOVERED if raw.reading.repairs else SourceStatus.READ
+        aside = left_out(raw, section, hidden=intake.profile.reading.hidden == "check")
+        raw = replace(raw, reading=replace(raw.reading, skipped=(*raw.reading.skipped, *aside)))
         intake.sources.append(replace(source, status=status, items=len(raw.items), skipped=raw.reading.skipped))
-        intake.drawings.append(_joined(raw, section, name, confirmed))
+        intake.drawings.append(_joined(raw, section, name, confirmed, frozenset(one.layer for one in aside)))
     if path is not None:
         take_companions(intake, name, path, limits.bytes)
 
 
-def _joined(raw: RawDrawing, section: DrawingSection, name: str, confirmed: Sequence[ConfirmedSection]) -> Drawing:
+def _joined(
+    raw: RawDrawing, section: DrawingSection, name: str, confirmed: Sequence[ConfirmedSection], ignored: frozenset[str]
+) -> Drawing:
     try:
         plane = _plane(raw.items, section)
     except ManifestError as error:
         raise ManifestError(error.message, **{**error.fields, "file": name}) from None
     return Drawing(
         path=name, items=raw.items, reading=raw.reading, unit=raw.unit, plane=plane,
-        facade=section.facade, classes=dict(section.classes), areas=section.areas,
+        facade=section.facade, classes=dict(section.classes), areas=section.areas, bind=section.bind, ignored=ignored,
         confirmed=frozenset(one.what for one in confirmed if confirms(one, section)),
     )  # fmt: skip
 

@@ -135,7 +135,9 @@ def _columns(record: AuditRecord, rows: Index) -> dict[str, NDArray[Any]]:
     }
 
 
-_TEXT_COLUMNS = ("key", "rule", "name", "severity", "source", "layer", "item", "handle", "inserts", "other")
+_TEXT_COLUMNS = (
+    "key", "rule", "name", "severity", "source", "layer", "item", "handle", "inserts", "other", "other_layer",
+)  # fmt: skip
 
 
 def _texts(column: Texts) -> Texts:

@@ -121,9 +121,8 @@ class _Report:
         key = "evaluate.xml.abstract-loose" if self.record.loose else "evaluate.xml.abstract"
         opening = self.words(key, profile=self._specification(), verdict=verdict)
         quality, contract = self.record.quality, contract_sentences(self.words, self.record)
-        return " ".join(
-            [opening, *contract, *self._sentences(() if self.record.loose else (*quality.why, *quality.remarks))]
-        )
+        why = () if self.record.loose else (*quality.why, *quality.remarks)
+        return " ".join([opening, *contract, *self._sentences(why)])
 
     def _specification(self) -> str:
         record = self.record

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from foparq.columns import Index, Reals
+from foparq.findings.table import Findings
 from foparq.report.places import found_by, pasted
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import finding_sentences
@@ -51,16 +52,21 @@ def finding_columns(record: AuditRecord, words: Words | None = None) -> dict[str
     made: dict[str, Sequence[Any]] = {
         "where": _points(table.place[rows]),
         "other": [other or None for other in table.other[rows].tolist()],
+        "other_layer": [layer if other else None for other, layer in zip(*_others(table, rows), strict=True)],
         "size": _numbers(table.size[rows]),
         "limit": _numbers(table.limit[rows]),
         "message": finding_sentences(words or Words(record.language), table, rows),
         "paste": [pasted(place, metres.get(source)) for place, source in places],
         "cad": cad,
         "qgis": qgis,
-        "other_layer": [layer or None for layer in table.other_layer[rows].tolist()],
         "waived": table.waived[rows].astype(bool).tolist(),
     }
     return {name: made[name] if name in made else getattr(table, name)[rows].tolist() for name in COLUMNS}
+
+
+def _others(table: Findings, rows: Index) -> tuple[list[str], list[str]]:
+    """Second items and their layers; ``""`` where a finding has none."""
+    return table.other[rows].tolist(), table.other_layer[rows].tolist()
 
 
 def finding_rows(record: AuditRecord, words: Words | None = None) -> Iterator[dict[str, Any]]:

@@ -5,18 +5,19 @@ Geometry is brought into the drawing's plane, in metres; rows are put into an or
 An odd item is left out of what cannot hold it and counted; it changes nothing for the others.
 """
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 import shapely
 
-from foparq.check.layers import matching
 from foparq.columns import Coordinates, Flags, Geometries, Index, Reals, Texts, union
 from foparq.geom.areas import measurable
 from foparq.geom.rounding import FARTHEST
 from foparq.model.drawing import Drawing
 from foparq.model.inputs import Areas, Features, Lines, Named
 from foparq.model.items import Role
+from foparq.model.layers import bonds, matching
 
 _LINE_STRING, _LINEAR_RING, _POLYGON = 1, 2, 3
 _RING_VERTICES = 4
@@ -37,6 +38,8 @@ class Columns:
     def __init__(self, drawing: Drawing, *, hidden: bool) -> None:
         items = drawing.items
         seen = ~items.paper & (items.visible | hidden)
+        if drawing.ignored:
+            seen &= ~np.isin(items.layer, list(drawing.ignored))
         rows = np.flatnonzero(seen & np.isin(items.role, [Role.LINE, Role.AREA, Role.POINT]))
         layer, item = items.layer[rows].astype(str), items.item[rows].astype(str)
         self.drawing = drawing
@@ -51,6 +54,11 @@ class Columns:
             if drawing.areas
             else np.zeros(len(self.rows), dtype=bool)
         )
+
+    @cached_property
+    def bond(self) -> Index:
+        """(n,) equal numbers on layers that are drawn as one: of one name, of one class, or bound by the manifest."""
+        return bonds(self.layer, self.drawing.classes, self.drawing.bind)
 
     def on_sheet(self, geometry: Geometries) -> Geometries:
         """Geometries in the plane; depth is kept if it differs from zero anywhere."""
@@ -140,7 +148,9 @@ class Columns:
         order = np.argsort(rows, kind="stable")
         rows = rows[order]
         holders = self.drawing.items.holders[self.rows[rows]]
-        return Lines(geometry=shapes[order], bounds=bounds[order], holders=holders, **self._named(rows))
+        return Lines(
+            geometry=shapes[order], bounds=bounds[order], holders=holders, bond=self.bond[rows], **self._named(rows)
+        )
 
     def _areas(self, on: Index) -> Areas:
         shapes = self.geometry[on].copy()

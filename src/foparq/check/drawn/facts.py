@@ -11,10 +11,10 @@ import numpy as np
 import shapely
 
 from foparq.check.drawn.unit_evidence import unit_evidence
-from foparq.check.layers import matches
 from foparq.model.drawing import Drawing
 from foparq.model.inputs import Bombs, HiddenItems, LayerNames, LayerPatterns, Named, Repairs, UnitEvidence
 from foparq.model.items import holders_of
+from foparq.model.layers import matches
 
 NO_ROW = -1  #: the statement is about no item
 #: statements that are there to be found: none of them means that the file was looked at
@@ -86,7 +86,8 @@ def _layer_names(drawing: Drawing) -> LayerNames:
 
 def _layer_patterns(drawing: Drawing) -> LayerPatterns:
     layers = all_layers(drawing)
-    patterns = sorted({*drawing.classes, *drawing.areas})
+    # What is left out and is not there leaves nothing out; what binds and is not there leaves a fault untold.
+    patterns = sorted({*drawing.classes, *drawing.areas, *(pattern for group in drawing.bind for pattern in group)})
     matched = [any(matches(layer, (pattern,)) for layer in layers) for pattern in patterns]
     return LayerPatterns(matched=np.array(matched, dtype=bool), **_about_file(patterns, [""] * len(patterns)))
 

@@ -14,12 +14,12 @@ import shapely
 
 from foparq.check.drawn.facts import all_layers
 from foparq.check.drawn.readings import Place, Readings, read_features
-from foparq.check.layers import matches
 from foparq.columns import Geometries, Index, Reals, Texts
 from foparq.findings.counts import FeatureCounts, FoundFeatures
 from foparq.geom.rounding import FARTHEST
 from foparq.model.drawing import Drawing, SkippedReason
 from foparq.model.items import Role, holders_of
+from foparq.model.layers import matches
 from foparq.names import folded, of_kind
 
 #: entities that are no linework

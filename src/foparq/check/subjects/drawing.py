@@ -8,11 +8,9 @@ import numpy as np
 import shapely
 
 from foparq.check.drawn.columns import Columns
-from foparq.check.drawn.coverages import undeclared_coverages
 from foparq.check.drawn.facts import EXAMINED, FACTS
 from foparq.check.drawn.stance import better_plane
 from foparq.check.drawn.unit_evidence import against
-from foparq.check.layers import literal, matches
 from foparq.check.subject import NO_DOUBT, Doubt, Patterns, Places, Subject, Taken, subject
 from foparq.columns import Geometries, Index, Texts, union
 from foparq.findings.because import Because
@@ -23,6 +21,7 @@ from foparq.geom.sizes import smaller_than
 from foparq.model.drawing import Drawing, UnitOrigin
 from foparq.model.inputs import Areas, Features, Lines, Named
 from foparq.model.items import Role
+from foparq.model.layers import literal, matches
 from foparq.model.part import Part
 from foparq.profile.schema import Profile
 
@@ -142,9 +141,19 @@ class DrawingSubject(Subject):
         if kind is not Areas:
             return ()
         if self._undeclared is None:
-            found = undeclared_coverages(self.columns, coincide=visible / 20)
-            self._undeclared = tuple(literal(layer) for layer in found)
+            lines = self.take(Lines, _ALL).rows
+            found = lines.layer[lines.adjoining(visible / 20)] if isinstance(lines, Lines) else ()
+            self._undeclared = tuple(literal(layer) for layer in sorted(set(found)))
         return self._undeclared
+
+    def drawn_again(self, kind: type, layers: Patterns, rows: Index, within: float) -> Index:
+        """Items of which a layer that does not bind with theirs draws every line as well; computed once."""
+        lines = self.without(kind, layers, rows)
+        if not isinstance(lines, Lines):
+            return rows[:0]
+        again = lines.drawn_again(within)
+        found: Index = np.setdiff1d(lines.row[again], lines.row[~again])
+        return found
 
     def named(self, rows: Index) -> tuple[Texts, Texts]:
         """Item ids and layers."""

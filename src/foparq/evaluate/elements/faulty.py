@@ -3,6 +3,7 @@
 
 from foparq.evaluate.evidence import Evidence, Judgement, Parameters, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
+from foparq.evaluate.left_out import left_out_doubts
 from foparq.evaluate.quality import Element, ElementStatus, because, some
 from foparq.evaluate.tally import (
     Tally,
@@ -53,7 +54,8 @@ def faulty_rate(spec: FaultyRateSpec, evidence: Evidence) -> tuple[Element, ...]
     parameters = (
         ("faulty", float(found.faulty), "items"), ("checked", float(found.checked), "items"),
         ("set-aside", float(found.aside), "items"), ("not-run-on", float(found.unrun), "items"),
-        ("too-small", float(found.small), "items"), *_by_length(found), *iso_counts(found),
+        ("too-small", float(found.small), "items"), ("drawn-again", float(found.again), "items"),
+        *_by_length(found), *iso_counts(found),
     )  # fmt: skip
     made = element(
         spec, _MEASURE, judgement, scope=evidence.files("drawing"), n=found.checked, value=value, limit=limit,
@@ -90,12 +92,13 @@ def _judge(spec: FaultyRateSpec, evidence: Evidence, found: Tally, limit: float)
         )  # fmt: skip
     if any(why is Because.CRASHED for why, _ in found.broken):
         return judged(ElementStatus.UNDECIDED, *broken, *remarks)
+    hidden = (*unseen(evidence, name), *left_out_doubts(evidence, name))
     if found.faulty / (found.checked + found.unrun) > limit:
-        return judged(ElementStatus.FAIL, because("faulty.fail", **fields), *broken, *unseen(evidence, name), *remarks)
+        return judged(ElementStatus.FAIL, because("faulty.fail", **fields), *broken, *hidden, *remarks)
     if found.absent:
         absent = because("checks.absent", element=name, rules=list(found.absent))
         return judged(ElementStatus.NOT_ASSESSED, absent, *broken, *remarks)
-    doubts = [*broken, *unseen(evidence, name)]
+    doubts = [*broken, *hidden]
     if (found.faulty + found.aside) / found.checked > limit:
         doubts.append(
             because("faulty.aside", aside=found.aside, items=some(found.unjudged, total=found.aside), **fields)

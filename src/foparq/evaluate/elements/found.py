@@ -3,6 +3,7 @@
 
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
+from foparq.evaluate.left_out import left_out_doubts
 from foparq.evaluate.measures import Measure, measure_counting, measures
 from foparq.evaluate.quality import Element, ElementStatus, because, some
 from foparq.evaluate.tally import (
@@ -77,7 +78,8 @@ def _judge(spec: FoundRateSpec, evidence: Evidence, found: Tally, value: float, 
         "element": spec.id, "found": found.found, "checked": found.checked, "value": (value, unit),
         "limit": (limit, unit),
     }  # fmt: skip
-    broken, hidden = broken_reasons(found, spec.id), unseen(evidence, spec.id)
+    broken = broken_reasons(found, spec.id)
+    hidden = (*unseen(evidence, spec.id), *left_out_doubts(evidence, spec.id))
     if any(why is Because.CRASHED for why, _ in found.broken):
         return judged(ElementStatus.UNDECIDED, *broken)
     sure = value if unit == "items" else found.found / (found.checked + found.unrun)

@@ -27,7 +27,7 @@ from foparq.read.dxf.kinds import ANNOTATIONS, Unseen
 from foparq.read.dxf.labels import labels_of, scales_of
 from foparq.read.dxf.load import UTF8_SINCE, load_document
 from foparq.read.dxf.sketch import Builder, texts
-from foparq.read.dxf.structure import asked, layer_table, paper_entities
+from foparq.read.dxf.structure import asked, layer_table, paper_entities, unplotted_layers
 from foparq.read.dxf.text import readable
 from foparq.read.dxf.units import Lettered, drawing_unit
 from foparq.read.letters import garbled
@@ -100,6 +100,7 @@ def _read(path: Path, limits: LimitsSpec, sagitta: float, unit: str | None, *, e
         scales=scales_of(document),
         layers=names,
         hidden_layers=tuple(name for name, hidden in zip(layers.names, layers.hidden, strict=True) if hidden),
+        unplotted_layers=tuple(unplotted_layers(document)),
     )
     return RawDrawing(items=items, reading=reading, unit=drawn_in)
 

@@ -54,6 +54,19 @@ def layer_table(document: Any) -> list[tuple[str, bool, bool]]:  # noqa: ANN401 
     return table
 
 
+def unplotted_layers(document: Any) -> list[str]:  # noqa: ANN401
+    """Names of the layers that are not plotted; damaged entries are left out."""
+    names = []
+    for layer in asked(lambda: list(document.layers)):
+        try:
+            name, plots = layer.dxf.name, bool(layer.dxf.get("plot", 1))
+        except LEAKS:
+            continue
+        if isinstance(name, str) and name and not plots:
+            names.append(readable(name))
+    return names
+
+
 def model_entities(document: Any) -> list[Any]:  # noqa: ANN401
     """Entities of model space, in the order of the file.
 

@@ -233,12 +233,17 @@ def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str
         layer=printable(str(findings.layer[row])),
         handle=printable(str(findings.item[row] or findings.handle[row])),
         inserts=tuple(printable(part) for part in str(findings.inserts[row]).split("/") if part),
-        other=printable(str(findings.other[row])),
+        other=_named(str(findings.other[row]), str(findings.other_layer[row])),
         size="" if counted_once or not np.isfinite(size) else words.quantity(size, str(findings.unit[row])),
         severity=str(findings.severity[row]),
         sentence=sentence,
         waived=bool(findings.waived[row]),
     )
+
+
+def _named(item: str, layer: str) -> str:
+    """An item with its layer: ``"175 (REBOCO)"``; ``""`` for none."""
+    return f"{printable(item)} ({printable(layer)})" if item else ""
 
 
 def _place(listing: Listing, row: int) -> str:

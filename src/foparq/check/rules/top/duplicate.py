@@ -7,6 +7,7 @@ from foparq.check.rule import rule
 from foparq.columns import Index
 from foparq.findings.hits import Hits, hits
 from foparq.geom.duplicates import duplicate_groups
+from foparq.geom.repeats import ring_kinds
 from foparq.geom.wholes import LOOSE, repeated_wholes
 from foparq.model.inputs import Lines
 from foparq.units import Metres
@@ -21,10 +22,14 @@ def duplicate(lines: Lines, *, coincide: Metres) -> Hits:
     at every same share of their lengths. Rings may start anywhere; vertices added on a straight piece change nothing.
     Duplicates of duplicates belong to the same group.
 
+    Only lines that bind are compared: on layers of one name, of one feature class of the manifest, or bound by it
+    (``bind``). What other layers draw in the same place is told by TOP022 shared-edge.
+
     Lines of a block insert are duplicates as well where the insert as a whole is one of another, a little aside: their
     convex hulls share at least nine tenths of what they cover, and once the boxes are laid centre on centre each line
     of one lies on a line of its own of the other, within ``coincide``. Two windows cannot stand in one place. Blocks
-    that were mirrored, turned or renamed are compared by their linework; each cell of an array by itself.
+    that were mirrored, turned or renamed are compared by their linework; each cell of an array by itself; inserts that
+    have other numbers of lines on the layers that bind are not compared.
 
     Of the lines of a group all but the first are at fault. A line on the boundary of an area is always at fault, the
     boundary never because of it. Boundaries are compared area by area: two areas are duplicates if all their rings are;
@@ -46,10 +51,10 @@ def duplicate(lines: Lines, *, coincide: Metres) -> Hits:
     O(n log n); copies are not paired with each other. Does not report lines that share a part only: see TOP021
     line-overlap.
     """
-    group = duplicate_groups(lines.polylines, coincide=coincide)
+    group = duplicate_groups(lines.polylines, coincide=coincide, apart=lines.bond)
     crowded = np.flatnonzero(np.bincount(group)[group] > 1)
-    row, other = _copies(crowded, group, _kinds(lines, crowded, group), lines.bounds)
-    copy, repeated = repeated_wholes(lines.polylines, _inserts(lines), coincide=coincide)
+    row, other = _copies(crowded, group, ring_kinds(lines.row, lines.bounds, group), lines.bounds)
+    copy, repeated = repeated_wholes(lines.polylines, _inserts(lines), coincide=coincide, apart=lines.bond)
     new = ~np.isin(copy, row)
     row, other = np.concatenate([row, copy[new]]), np.concatenate([other, repeated[new]])
     return hits(row, lines.geometry[row], lines.polylines.length_in_space[row], other)
@@ -60,20 +65,6 @@ def _inserts(lines: Lines) -> Index:
     numbers = {"": LOOSE}
     held = [numbers.setdefault(holders, len(numbers)) for holders in lines.holders.tolist()]
     return np.array(held, dtype=np.intp)
-
-
-def _kinds(lines: Lines, rows: Index, group: Index) -> Index:
-    """Kind (n,) of each row that is a boundary: equal where the areas have the same rings."""
-    kind = np.zeros(len(lines), dtype=np.intp)
-    bounds = rows[lines.bounds[rows]]
-    concerned = np.flatnonzero(np.isin(lines.row, lines.row[bounds]))
-    rings: dict[int, list[int]] = {}
-    for item, ring in zip(lines.row[concerned].tolist(), group[concerned].tolist(), strict=True):
-        rings.setdefault(item, []).append(ring)
-    numbers: dict[tuple[int, ...], int] = {}
-    of_item = {item: numbers.setdefault(tuple(sorted(of)), len(numbers)) for item, of in rings.items()}
-    kind[bounds] = [of_item[item] for item in lines.row[bounds].tolist()]
-    return kind
 
 
 def _copies(rows: Index, group: Index, kind: Index, bounds: np.ndarray) -> tuple[Index, Index]:

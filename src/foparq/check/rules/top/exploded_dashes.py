@@ -12,7 +12,14 @@ from foparq.model.inputs import Lines
 from foparq.units import Metres, Radians, Ratio
 
 
-@rule("TOP015", "exploded-dashes", size="items", measures=("21",), requires=("GEO001", "GEO002", "TOP001"))
+@rule(
+    "TOP015",
+    "exploded-dashes",
+    size="items",
+    measures=("21",),
+    requires=("GEO001", "GEO002", "TOP001"),
+    once="coincide",
+)
 def exploded_dashes(
     lines: Lines, *, coincide: Metres, reach: Metres, ahead: Radians, alongside: Radians, remainder: Ratio
 ) -> Hits:

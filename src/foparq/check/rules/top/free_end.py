@@ -10,7 +10,7 @@ from foparq.model.inputs import Lines
 from foparq.units import Metres, Radians, Ratio
 
 
-@rule("TOP013", "free-end", limit="reach", measures=("21",), requires=("GEO001", "GEO002", "TOP001"))
+@rule("TOP013", "free-end", limit="reach", measures=("21",), requires=("GEO001", "GEO002", "TOP001"), once="coincide")
 def free_end(
     lines: Lines, *, coincide: Metres, reach: Metres, ahead: Radians, alongside: Radians, remainder: Ratio
 ) -> Hits:

@@ -21,10 +21,14 @@ def line_overlap(lines: Lines, *, coincide: Metres) -> Hits:
     ends lie at an end or a corner of one of the lines, or if one does and at least half of the stretch is flush,
     nearer than a sixteenth of ``coincide``. An arch may spring from a jamb that goes on.
 
+    Only lines that bind are compared: on layers of one name, of one feature class of the manifest, or bound by it
+    (``bind``). What lines of other layers share is told by TOP022 shared-edge.
+
     Parameters
     ----------
     lines : Lines, n rows
-        Pairs of boundaries of areas are not compared: neighbours share them.
+        Pairs of boundaries of areas are not compared: neighbours share them. Nor are pairs of closed lines of a layer
+        whose closed lines adjoin, see TOP033 undeclared-coverage.
     coincide : float, metres
         Distance up to which two places are one.
 
@@ -40,5 +44,6 @@ def line_overlap(lines: Lines, *, coincide: Metres) -> Hits:
     lines drawn twice: see TOP001 duplicate, which sets them aside; nor a line that runs along itself: see GEO004.
     """
     table = lines.polylines
-    found = line_overlaps(table, lines.bounds, coincide=coincide)
+    stays = lines.adjoining(coincide)
+    found = line_overlaps(table, lines.bounds, coincide=coincide, apart=lines.bond, stays=stays)
     return hits(found.line, table.chords(found.start, found.end), found.length, found.other)

@@ -10,7 +10,9 @@ from foparq.model.inputs import Lines
 from foparq.units import Metres, Radians, Ratio
 
 
-@rule("TOP012", "overshoot", limit="coincide", measures=("24",), requires=("GEO001", "GEO002", "TOP001"))
+@rule(
+    "TOP012", "overshoot", limit="coincide", measures=("24",), requires=("GEO001", "GEO002", "TOP001"), once="coincide"
+)
 def overshoot(
     lines: Lines, *, coincide: Metres, reach: Metres, ahead: Radians, alongside: Radians, remainder: Ratio
 ) -> Hits:

@@ -9,7 +9,14 @@ from foparq.model.inputs import Lines
 from foparq.units import Metres, Radians, Ratio
 
 
-@rule("TOP016", "probable-undershoot", limit="reach", measures=("23",), requires=("GEO001", "GEO002", "TOP001"))
+@rule(
+    "TOP016",
+    "probable-undershoot",
+    limit="reach",
+    measures=("23",),
+    requires=("GEO001", "GEO002", "TOP001"),
+    once="coincide",
+)
 def probable_undershoot(
     lines: Lines, *, coincide: Metres, reach: Metres, ahead: Radians, alongside: Radians, remainder: Ratio,
     heading: Metres,

@@ -9,7 +9,9 @@ from foparq.model.inputs import Lines
 from foparq.units import Metres, Radians, Ratio
 
 
-@rule("TOP014", "short-node", limit="coincide", measures=("23",), requires=("GEO001", "GEO002", "TOP001"))
+@rule(
+    "TOP014", "short-node", limit="coincide", measures=("23",), requires=("GEO001", "GEO002", "TOP001"), once="coincide"
+)
 def short_node(
     lines: Lines, *, coincide: Metres, reach: Metres, ahead: Radians, alongside: Radians, remainder: Ratio
 ) -> Hits:

@@ -10,7 +10,9 @@ from foparq.model.inputs import Lines
 from foparq.units import Metres, Radians, Ratio
 
 
-@rule("TOP011", "undershoot", limit="coincide", measures=("23",), requires=("GEO001", "GEO002", "TOP001"))
+@rule(
+    "TOP011", "undershoot", limit="coincide", measures=("23",), requires=("GEO001", "GEO002", "TOP001"), once="coincide"
+)
 def undershoot(
     lines: Lines, *, coincide: Metres, reach: Metres, ahead: Radians, alongside: Radians, remainder: Ratio
 ) -> Hits:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from foparq.check.bounds import budget_of
-from foparq.check.layers import literal, matches, matching
+from foparq.model.layers import literal, matches, matching
 from foparq.profile.schema import LimitsSpec
 
 NAMES = np.array(["PAREDE", "parede-2", "PORTA", "A*B", "A[1]", "Ação"], dtype=object)
