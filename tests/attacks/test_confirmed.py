@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.attacks.evidence import both
+from tests.attacks.evidence import both, redrawn
 from tests.attacks.kinds import BY_ID, BY_NAME, DXF
 from tests.attacks.statements import MODERN
 from tests.tools.offices import Office, office
@@ -68,3 +68,55 @@ def test_a_doubt_passes_when_it_is_confirmed(name: str, tmp_path: Path) -> None:
         if (before, done.record.quality.verdict, printed(done)) != ("undecided", "accepted", [said]):
             wrong[seed] = (str(before), str(done.record.quality.verdict), done.record.quality.why)
     assert not wrong
+
+
+def _aside(made: Office) -> Office:
+    return redrawn(made, lambda spots: spots + np.array([0.07, 0.11, 0.0]))
+
+
+def _mirrored(made: Office) -> Office:
+    return redrawn(made, lambda spots: np.array([made.facade.width, 0, 0]) + spots * [-1, 1, 1])
+
+
+def _exchanged(made: Office) -> Office:
+    return made.change(delivered=made.columns[:, [1, 0, 2]], surveyed=made.surveyed[:, [1, 0, 2]])
+
+
+def _other_lengths(made: Office) -> Office:
+    """Lengths that are not those between ends which are in the drawing."""
+    longer = np.linspace(0.3, 2.0, len(made.lengths))
+    return made.change(measured=made.measured + longer, lengths=made.lengths + longer)
+
+
+#: what is confirmed as "not drawn", what is drawn all the same, and the element that must stay open
+REFUTED = {
+    "points beside a drawing that was moved": ("checkpoints", _aside, "Q1-X"),
+    "points of a drawing that was mirrored": ("checkpoints", _mirrored, "Q1-X"),
+    "points with exchanged axes": ("checkpoints", _exchanged, "Q1-X"),
+    "lengths between points that are drawn": ("distances", _other_lengths, "Q2"),
+}
+
+
+@pytest.mark.parametrize("name", REFUTED)
+def test_not_drawn_covers_nothing_that_is_drawn(name: str, tmp_path: Path) -> None:
+    what, change, id_ = REFUTED[name]
+    said = {"what": what, "value": "not drawn", **WHO}
+    wrong = {}
+    for seed in range(6):
+        made = change(office(2000 + seed, n=9, **BY_ID)).change(confirmed=(said,))
+        quality = audited(made, tmp_path / str(seed)).record.quality
+        states = {element.id: str(element.status) for element in quality.elements}
+        if (quality.verdict, states[id_]) != ("undecided", "undecided"):
+            wrong[seed] = (str(quality.verdict), states[id_])
+    assert not wrong
+
+
+def test_openings_measured_from_left_to_right(tmp_path: Path) -> None:
+    """Every row names its ends alike; widths that differ are no repetition."""
+    wide = 1.0 + 0.37 * np.arange(6)
+    for seed in range(6):
+        made = office(2100 + seed, n=9, **{**BY_NAME, "table_unit": "m", "digits": 4})
+        errors = 0.00006 * made.scale * np.where(np.arange(len(wide)) % 2, 1, -1)
+        made = made.change(lengths=wide, measured=wide + errors, ends=[("esq.", "dir.")] * len(wide))
+        quality = audited(made, tmp_path / str(seed)).record.quality
+        assert next(element.n for element in quality.elements if element.id == "Q2") == len(wide)

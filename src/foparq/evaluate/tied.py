@@ -61,7 +61,9 @@ def tied_points(points: Checkpoints, evidence: Evidence, name: str) -> Tied:
         absent = np.flatnonzero(ties.lies == Lies.ABSENT)
         if len(absent):
             remarks.append(_naming("evidence.absent-confirmed", name, points.id[absent], by=confirmed.by))
-        return Tied(rows, every[rows], (), tuple(remarks))
+        # Points that one cause puts on the drawing are drawn, whoever says that they are not.
+        drawn = () if ties.cause is None else (_of_all(points, ties, ties.cause, name),)
+        return Tied(rows, every[rows], drawn, tuple(remarks))
     return Tied(rows, every[rows], _absent(points, ties, name), tuple(remarks))
 
 
@@ -83,7 +85,9 @@ def tied_distances(distances: Distances, evidence: Evidence, name: str) -> Tied:
         remarks.append(because("evidence.names-only", element=name, n=int(names.sum()), total=len(distances.id)))
     if (confirmed := evidence.confirmation("distances", NOT_DRAWN)) is not None:
         remarks.append(because("evidence.distances-confirmed", element=name, by=confirmed.by))
-        return Tied(rows, every[rows], (), tuple(remarks))
+        # Ends that are in the drawing are drawn: lengths that contradict them stay a doubt.
+        drawn = ties.ends == Ends.OTHER_LENGTH
+        ties = replace(ties, ends=np.where(drawn, ties.ends, str(Ends.NAMES)))
     return Tied(rows, every[rows], _not_of_drawing(distances, ties, name), tuple(remarks))
 
 
