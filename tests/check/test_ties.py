@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import shapely
 
-from foparq.check.drawn.ground import Ground, ground_of
-from foparq.check.drawn.ties import Nearness, tie_evidence, tie_points
+from foparq.check.drawn.ground import Ground, Nearness, ground_of
+from foparq.check.drawn.ties import tie_evidence, tie_points
 from foparq.findings.ties import Ends, Lies
 from foparq.model.delivery import Delivery
 from foparq.model.drawing import Drawing, DrawingUnit, Labels, Reading, UnitOrigin
@@ -70,7 +70,7 @@ def checkpoints(delivered: np.ndarray, surveyed: np.ndarray | None = None, **cha
 
 
 def ground(made: Drawing) -> Ground:
-    found = ground_of(made)
+    found = ground_of(made, NEAR)
     assert found is not None
     return found
 

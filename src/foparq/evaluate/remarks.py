@@ -9,6 +9,7 @@ _REMARKS = frozenset({
     "residuals.outliers-limit", "evidence.repeated", "evidence.repeated-distances", "evidence.taken", "evidence.flat",
     "evidence.names-only", "evidence.good", "evidence.absent-confirmed", "evidence.distances-confirmed",
     "checks.preview", "checks.unfit", "faulty.free", "features.unmapped", "omission.net", "omission.unproven",
+    "evidence.most-confirmed", "evidence.unnamed",
 })  # fmt: skip
 
 

@@ -27,7 +27,7 @@ from foparq.read.dxf.kinds import ANNOTATIONS, Unseen
 from foparq.read.dxf.labels import labels_of, scales_of
 from foparq.read.dxf.load import load_document
 from foparq.read.dxf.sketch import Builder, texts
-from foparq.read.dxf.structure import asked, layer_table, paper_entities
+from foparq.read.dxf.structure import asked, layer_table, paper_entities, unplotted_layers
 from foparq.read.dxf.text import doubly_encoded, readable
 from foparq.read.dxf.units import Lettered, drawing_unit
 from foparq.read.raw import RawDrawing, holds_drawing
@@ -89,6 +89,9 @@ def _read(path: Path, limits: LimitsSpec, sagitta: float, unit: str | None, *, e
     items = builder.columns.items(layers)
     _count_paper(document, items, builder)
     names = tuple(dict.fromkeys([*layers.table, *layers.names]))
+    hidden = tuple(name for name, hidden in zip(layers.names, layers.hidden, strict=True) if hidden)
+    off = {name.casefold() for name in unplotted_layers(document)}
+    unplotted = tuple(name for name in names if name.casefold() in off)
     reading = Reading(
         version=version,
         encoding=encoding,
@@ -97,10 +100,11 @@ def _read(path: Path, limits: LimitsSpec, sagitta: float, unit: str | None, *, e
         bombs=_bombs(model, census, refused, builder),
         bad_names=tuple(name for name in names if doubly_encoded(name, encoding)),
         dimensions=_dimensions(builder.dimensions),
-        labels=labels_of(document),
+        labels=labels_of(document, {*hidden, *unplotted}),
         scales=scales_of(document),
         layers=names,
-        hidden_layers=tuple(name for name, hidden in zip(layers.names, layers.hidden, strict=True) if hidden),
+        hidden_layers=hidden,
+        unplotted=unplotted,
     )
     return RawDrawing(items=items, reading=reading, unit=drawn_in)
 

@@ -12,6 +12,7 @@ from foparq.read.dxf.text import readable
 Answer = TypeVar("Answer")
 
 _EXTERNAL = 4 | 8  # flags of a block definition: external reference, overlay
+_NEVER = "Defpoints"  # layer of the points of dimensions, which CAD never plots, whatever is stated of it
 _CONSTANT = 2  # flag of an attribute definition
 
 
@@ -52,6 +53,18 @@ def layer_table(document: Any) -> list[tuple[str, bool, bool]]:  # noqa: ANN401 
         if isinstance(name, str) and name:
             table.append((readable(name), *state))
     return table
+
+
+def unplotted_layers(document: Any) -> set[str]:  # noqa: ANN401
+    """Names of the layers that are not plotted, as the file writes them, and of that which never is."""
+    found = {_NEVER}
+    for layer in asked(lambda: list(document.layers)):
+        try:
+            if not layer.dxf.get("plot", 1):
+                found.add(readable(layer.dxf.name))
+        except LEAKS:
+            continue
+    return found
 
 
 def model_entities(document: Any) -> list[Any]:  # noqa: ANN401
