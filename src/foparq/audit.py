@@ -15,8 +15,9 @@ import shapely
 
 from foparq import __version__
 from foparq.check.bounds import Broken, Budget, budget_of
+from foparq.check.drawn.ground import Nearness
 from foparq.check.drawn.placements import count_listed
-from foparq.check.drawn.ties import Nearness, tie_evidence
+from foparq.check.drawn.ties import tie_evidence
 from foparq.check.drawn.witnesses import with_witnesses
 from foparq.check.run import check_part
 from foparq.check.validate import validate_checks

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from tests.attacks import evidence, repetition, statements  # noqa: F401 - enter their attacks
+from tests.attacks import evidence, facades, marks, repetition, statements  # noqa: F401 - enter their attacks
 from tests.attacks.kinds import ATTACKS
 from tests.tools.offices import Office, office
 from tests.tools.sound import audited

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 import shapely
 
-from foparq.check.drawn.ground import Ground, ground_of
-from foparq.check.drawn.ties import Nearness, tie_evidence, tie_points
+from foparq.check.drawn.ground import Ground, Nearness, ground_of
+from foparq.check.drawn.ties import tie_evidence, tie_points
 from foparq.findings.ties import Ends, Lies
 from foparq.model.delivery import Delivery
 from foparq.model.drawing import Drawing, DrawingUnit, Labels, Reading, UnitOrigin
@@ -70,7 +70,7 @@ def checkpoints(delivered: np.ndarray, surveyed: np.ndarray | None = None, **cha
 
 
 def ground(made: Drawing) -> Ground:
-    found = ground_of(made)
+    found = ground_of(made, NEAR)
     assert found is not None
     return found
 
@@ -202,8 +202,13 @@ def test_one_measurement_counts_once() -> None:
     points = checkpoints(in_space(CORNERS))
     same = ends(distances([("V0", "V1"), ("V1", "V0"), ("V1", "V2")], [between(0, 1)] * 2 + [between(1, 2)]), points)
     assert same.group.tolist() == [0, 0, 2]
-    names = ends(distances([("p", "q"), ("Q", "P"), ("p", "r")], [1.0, 2.0, 3.0]))
+    names = ends(distances([("p", "q"), ("Q", "P"), ("p", "r")], [1.0, 1.0019, 1.0]))
     assert names.group.tolist() == [0, 0, 2]
+    # No two points are one metre apart and two: names that every opening bears say where an end is, not which.
+    sides = ends(distances([("left", "right")] * 3, [1.0, 1.0021, 2.0]))
+    assert sides.group.tolist() == [0, 1, 2]
+    untold = ends(distances([("left", "right")] * 3, [np.nan] * 3, measured=np.array([1.0, 1.001, 2.0])))
+    assert untold.group.tolist() == [0, 0, 2]
     thrice = ends(distances([("", "")] * 4, [1.0, 1.0, 1.0, 2.0]))
     assert thrice.group.tolist() == [0, 0, 0, 3]
     twice = ends(distances([("", "")] * 3, [1.0, 1.0, 2.0]))

@@ -131,6 +131,16 @@ def test_a_facade_that_only_one_side_names(rows: list, counts: list) -> None:
     assert (commission.status, commission.value) == (UNDECIDED, None)
 
 
+def test_a_facade_that_no_drawing_shows_may_be_another_name_of_one() -> None:
+    """Two doors of "Norte" and two that are drawn on "N": neither is proven missing, nor in surplus."""
+    rows, counts = [("window", "N", 20), ("door", "Norte", 2)], [("window", "N", 20), ("door", "N", 2)]
+    commission, omission = both(rows, counts)
+    assert (commission.status, omission.status) == (UNDECIDED, UNDECIDED)
+    # Where each facade of the list is drawn, what is drawn on the other one is a surplus.
+    other, _ = both(rows, [*counts, ("window", "Norte", 0)])
+    assert (other.status, other.value) == (FAIL, 2 / 20)  # doors of Norte have no layer: not compared
+
+
 def test_a_list_without_facades_counts_all_of_them() -> None:
     _, omission = both([("window", "", 20)], [("window", "N", 12), ("window", "S", 8)])
     assert (omission.status, omission.value) == (PASS, 0.0)

@@ -92,6 +92,20 @@ def test_several_drawings_are_told_apart_as_well() -> None:
     assert not [name for name, _, _ in rate(sketch(posts(10, 0.004))).details if name.endswith(".dxf")]
 
 
+def test_a_drawing_over_the_limit_is_not_hidden_by_a_clean_one() -> None:
+    """10 of 30 is more than a tenth, 10 of 120 is not; 3 of 30 is exactly a tenth, and may be."""
+    clean = sketch(posts(30, 0.0), "b.dxf")
+    element = rate(sketch(posts(10, 0.004)), clean)
+    assert element.status is ElementStatus.UNDECIDED
+    said = dict(element.why[0].fields)
+    assert element.why[0].message == "faulty.one-drawing"
+    assert (said["file"], said["faulty"], said["checked"]) == ("a.dxf", 10, 30)
+    touched = rate(sketch([*posts(3, 0.004), *posts(7, 0.0)[3 * 3 :], *strokes(9, 1.5)]), clean)
+    assert [row for row in touched.details if row[0] == "a.dxf"] == [("a.dxf", 3.0, 30.0)]
+    assert touched.status is ElementStatus.PASS
+    assert rate(sketch(posts(10, 0.004)), sketch(posts(3, 0.004), "b.dxf")).status is ElementStatus.FAIL
+
+
 small = st.tuples(st.integers(0, 200), st.sampled_from([0.0, 0.0004, 0.001, 0.005, 0.0099]), st.booleans())
 
 

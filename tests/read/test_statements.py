@@ -9,7 +9,7 @@ from foparq.read.statements import confirmed, confirms
 
 
 def manifest(what: str, value: str, path: str = "") -> Manifest:
-    drawings = [{"path": "a.dxf", "unit": "mm", "plane": "xz"}, {"path": "b.dxf", "unit": "m"}]
+    drawings = [{"path": "a.dxf", "unit": "mm", "plane": "xz"}, {"path": "b.dxf", "unit": "m", "facade": "Sul"}]
     one = {"what": what, "value": value, "by": "a name", "reason": "a reason", "path": path}
     return Manifest.model_validate({"drawing": drawings, "confirmed": [one]}) if what else Manifest()
 
@@ -19,7 +19,7 @@ def manifest(what: str, value: str, path: str = "") -> Manifest:
     [
         ("unit", "mm", "", ["a.dxf"]), ("unit", "m", "", ["b.dxf"]), ("unit", "m", "b.dxf", ["b.dxf"]),
         ("plane", "XZ", "", ["a.dxf"]), ("scale", "1:500", "", []), ("checkpoints", "not drawn", "", []),
-        ("distances", "Not drawn", "", []),
+        ("distances", "Not drawn", "", []), ("facade", "SUL", "", []),
     ],
 )  # fmt: skip
 def test_what_is_stated_can_be_confirmed(what: str, value: str, path: str, files: list[str]) -> None:
@@ -34,7 +34,7 @@ def test_what_is_stated_can_be_confirmed(what: str, value: str, path: str, files
     [
         ("unit", "km", "", 'value = "mm", value = "m"'), ("unit", "m", "a.dxf", 'value = "mm"'),
         ("plane", "xy", "", 'value = "xz"'), ("plane", "xy", "b.dxf", 'plane = "xy"'),
-        ("checkpoints", "yes", "", 'value = "not drawn"'),
+        ("checkpoints", "yes", "", 'value = "not drawn"'), ("facade", "N", "", 'value = "Sul"'),
     ],
 )  # fmt: skip
 def test_a_slip_is_told_with_what_would_be_right(what: str, value: str, path: str, example: str) -> None:

@@ -148,7 +148,8 @@ def balances(features: FeatureList, counts: FeatureCounts, decisions: Sequence[D
     -------
     tuple of Balance
         A class that is drawn on a facade where the list has none of it is a surplus, as long as the list speaks of both
-        the class and the facade; else it is ``Incomparable.UNLISTED``.
+        the class and the facade, and of no other facade for the class that no drawing shows: "Norte" may be how the
+        list calls "N". Else it is ``Incomparable.UNLISTED``.
     """
     spelt = _Spelling((features.feature_class, counts.feature_class), (features.facade, counts.facade))
     features = replace(
@@ -159,9 +160,12 @@ def balances(features: FeatureList, counts: FeatureCounts, decisions: Sequence[D
     for name, facade in zip(features.feature_class, features.facade, strict=True):
         listed[name].add(facade)
     spoken = {facade for facades in listed.values() for facade in facades}
+    shown = {facade for facades in drawn.values() for facade in facades}
     made: list[Balance] = []
     for name in sorted({*listed, *drawn}):
-        made.extend(_of_class(features, name, listed.get(name, set()), drawn.get(name, {}), spoken, counts.placements))
+        own = listed.get(name, set())
+        known = spoken if own <= shown else set()
+        made.extend(_of_class(features, name, own, drawn.get(name, {}), known, counts.placements))
     return tuple(_settled(row, decisions) for row in made)
 
 

@@ -8,8 +8,9 @@ import numpy as np
 
 from foparq.accuracy.differences import differences
 from foparq.accuracy.too_good import too_good
-from foparq.columns import Index, Reals, Texts
+from foparq.columns import Flags, Index, Reals, Texts
 from foparq.evaluate.evidence import Evidence
+from foparq.evaluate.facades import facade_doubts, unnamed_remark
 from foparq.evaluate.quality import Reason, because, some
 from foparq.findings.because import Because
 from foparq.findings.ties import DistanceTies, Ends, Lies, PointTies
@@ -34,7 +35,7 @@ class Tied(NamedTuple):
     remarks: tuple[Reason, ...]  #: what is to be said beside them
 
 
-def tied_points(points: Checkpoints, evidence: Evidence, name: str) -> Tied:
+def tied_points(points: Checkpoints, evidence: Evidence, name: str, *, fewest: int = 1) -> Tied:
     """Differences (m, 3) of the checkpoints.
 
     Points that stand for one place count once, with the largest difference among them.
@@ -43,6 +44,8 @@ def tied_points(points: Checkpoints, evidence: Evidence, name: str) -> Tied:
     ----------
     name : str
         Id of the element, for the reasons.
+    fewest : int
+        Places that each of several facades must have.
     """
     ties = evidence.ties.points if evidence.ties else None
     if ties is None:
@@ -57,12 +60,23 @@ def tied_points(points: Checkpoints, evidence: Evidence, name: str) -> Tied:
     taken = np.isin(ties.lies, [Lies.TAKEN_VERTEX, Lies.TAKEN_NAMED])
     if taken.any():
         remarks.append(_naming("evidence.taken", name, points.id[taken]))
+    counted, doubts = ties.held, _absent(points, ties, name)
     if (confirmed := evidence.confirmation("checkpoints", NOT_DRAWN)) is not None:
-        absent = np.flatnonzero(ties.lies == Lies.ABSENT)
+        absent = np.flatnonzero((ties.lies == Lies.ABSENT) | _made(ties))
         if len(absent):
-            remarks.append(_naming("evidence.absent-confirmed", name, points.id[absent], by=confirmed.by))
-        return Tied(rows, every[rows], (), tuple(remarks))
-    return Tied(rows, every[rows], _absent(points, ties, name), tuple(remarks))
+            most = "evidence.most-confirmed" if 2 * len(absent) > len(points.id) else "evidence.absent-confirmed"
+            remarks.insert(0, _naming(most, name, points.id[absent], by=confirmed.by, total=len(points.id)))
+        # Points that one cause puts on the drawing are drawn, whoever says that they are not; what is farther from a
+        # drawing than this is large is no point of what it shows.
+        doubts = () if ties.cause is None else (_of_all(points, ties, ties.cause, name),)
+        if ties.beside.size:
+            counted = ties.held | ties.beside
+            beyond = absent[~counted[absent].any(axis=1)]
+            if len(beyond):
+                doubts = (*doubts, _naming("evidence.beyond", name, points.id[beyond], total=len(points.id)))
+    doubts = (*doubts, *facade_doubts(ties, counted, name, fewest))
+    remarks += unnamed_remark(ties, counted, name)
+    return Tied(rows, every[rows], doubts, tuple(remarks))
 
 
 def tied_distances(distances: Distances, evidence: Evidence, name: str) -> Tied:
@@ -83,7 +97,9 @@ def tied_distances(distances: Distances, evidence: Evidence, name: str) -> Tied:
         remarks.append(because("evidence.names-only", element=name, n=int(names.sum()), total=len(distances.id)))
     if (confirmed := evidence.confirmation("distances", NOT_DRAWN)) is not None:
         remarks.append(because("evidence.distances-confirmed", element=name, by=confirmed.by))
-        return Tied(rows, every[rows], (), tuple(remarks))
+        # Ends that are in the drawing are drawn: lengths that contradict them stay a doubt.
+        drawn = ties.ends == Ends.OTHER_LENGTH
+        ties = replace(ties, ends=np.where(drawn, ties.ends, str(Ends.NAMES)))
     return Tied(rows, every[rows], _not_of_drawing(distances, ties, name), tuple(remarks))
 
 
@@ -138,17 +154,26 @@ def _untied(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     return (because("evidence.no-drawing", element=name),)
 
 
+def _made(ties: PointTies) -> Flags:
+    """(n,) points on linework that shows nothing else."""
+    return ties.made if len(ties.made) else np.zeros(len(ties.lies), dtype=bool)
+
+
 def _absent(points: Checkpoints, ties: PointTies, name: str) -> tuple[Reason, ...]:
-    absent = ties.lies == Lies.ABSENT
+    absent, made = ties.lies == Lies.ABSENT, _made(ties)
+    only: tuple[Reason, ...] = ()
+    if made.any():
+        layers = sorted(set(ties.layer[made].tolist()))
+        only = (_naming("evidence.made", name, points.id[made], total=len(points.id), layers=layers[:_SHOWN]),)
     if not absent.any():
-        return () if ties.cause is None else (_of_all(points, ties, ties.cause, name),)
+        return only if ties.cause is None else (*only, _of_all(points, ties, ties.cause, name))
     gaps = ties.gap[absent & np.isfinite(ties.gap)]
     least, most = (float(gaps.min()), float(gaps.max())) if len(gaps) else (np.nan, np.nan)
     said = {"total": len(points.id), "least": (least, "m"), "most": (most, "m")}
     why = [_naming("evidence.absent", name, points.id[absent], **said)]
     if ties.cause is not None:
         why.insert(0, _of_all(points, ties, ties.cause, name))
-    return tuple(why)
+    return (*only, *why)
 
 
 def _of_all(points: Checkpoints, ties: PointTies, cause: Cause, name: str) -> Reason:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from foparq.evaluate.decisions import dated
 from foparq.evaluate.diagnosis import diagnosis
 from foparq.evaluate.evidence import Evidence
+from foparq.evaluate.facades import alike_doubts
 from foparq.evaluate.left_out import left_out
 from foparq.evaluate.quality import Element, ElementStatus, QualityReport, Reason, Verdict, because
 from foparq.evaluate.remarks import basis, deciding, remarks_on
@@ -30,13 +31,15 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     """Verdict over all elements, with the reasons that decide and, apart from them, what is to be said beside them.
 
     Rejected: a required element fails. Else undecided: a required element is undecided or not assessed, a file that the
-    manifest names could not be read, something crashed, or nothing is required. Else accepted.
+    manifest names could not be read, drawings of two facades are alike, something crashed, or nothing is
+    required. Else accepted.
     """
     waived = {name for spec in profile.elements if not spec.applicable for name in results_of(spec.id)}
     required = [element for element in elements if element.required and element.id not in waived]
     failed = [element for element in required if element.status is ElementStatus.FAIL]
     opened = [element for element in required if element.status in _OPEN]
     doubts = _together(deciding(element) for element in opened) + lost_files(evidence) + crashes(evidence)
+    doubts += alike_doubts(evidence)
     # What a file that is not there, or a wrong unit or plane, does to the numbers says nothing itself.
     doubts.sort(key=lambda reason: (reason.message not in _LOST.values(), reason.message not in _STATEMENTS))
     if not required:
@@ -54,6 +57,10 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     if doubts:
         return _report(Verdict.UNDECIDED, doubts, beside, elements, evidence)
     why = [because("verdict.accepted", elements=[element.id for element in required])]
+    # Where most points are drawn nowhere, the acceptance is somebody's word: it begins with the name.
+    why[:0] = _together(
+        [reason for reason in element.why if reason.message == "evidence.most-confirmed"] for element in required
+    )
     why += _together(basis(element) if _tolerated(element) else basis(element)[1:] for element in required)
     if others := [element.id for element in elements if element not in required and element.value is not None]:
         beside.append((because("verdict.not-required", elements=others),))

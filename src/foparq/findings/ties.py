@@ -3,6 +3,7 @@
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,6 +24,24 @@ def _placeless() -> Reals:
 
 def _nowhere() -> Index:
     return np.empty((0, 2), dtype=np.intp)
+
+
+def _none() -> Flags:
+    return np.zeros(0, dtype=bool)
+
+
+def _unasked() -> Flags:
+    return np.zeros((0, 0), dtype=bool)
+
+
+class Alike(NamedTuple):
+    """Two drawings that are told apart by their facades, and whose linework is the same."""
+
+    path: str
+    facade: str
+    other: str  #: path of the other one
+    other_facade: str
+    mirrored: bool
 
 
 class Lies(StrEnum):
@@ -64,6 +83,11 @@ class PointTies:
     corner: Reals = field(default_factory=_untold)  #: (n,) to its vertex, else infinite; empty: untold
     cause: Cause | None = None  #: what would put all of them on the drawing
     near: str = ""  #: path of the drawing of which the cause speaks
+    files: tuple[str, ...] = ()  #: paths of d drawings; empty: untold
+    facades: tuple[str, ...] = ()  #: of these; ``""`` where the manifest names none
+    made: Flags = field(default_factory=_none)  #: (n,) on linework that shows nothing else, as most of its drawing are
+    held: Flags = field(default_factory=_unasked)  #: (n, d) the point lies in the drawing
+    beside: Flags = field(default_factory=_unasked)  #: (n, d) absent, and nearest to it, not beyond its own diagonal
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,5 +110,6 @@ class Ties:
 
     points: PointTies | None = None
     distances: DistanceTies | None = None
+    alike: tuple[Alike, ...] = ()  #: drawings of two facades with the same linework
     drawings: int = 0  #: drawings with a known unit, to which anything could be tied
     broken: Because = Because.RAN  #: why the search broke off: ``LIMIT`` or ``CRASHED``

@@ -213,7 +213,7 @@ class Reading:
     scales: tuple[StatedScale, ...] = ()
     layers: tuple[str, ...] = ()  #: every layer of the file, also the empty ones
     hidden_layers: tuple[str, ...] = ()  #: off or frozen layers
-    unplotted_layers: tuple[str, ...] = ()  #: layers that the file says not to plot
+    unplotted: tuple[str, ...] = ()  #: layers that CAD never plots: aids of construction
     crs: str = ""  #: coordinate reference system, ``"EPSG:31982"``
 
 

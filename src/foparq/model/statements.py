@@ -8,7 +8,7 @@ from dataclasses import dataclass
 class Confirmation:
     """A statement that witnesses contradict, confirmed by a person."""
 
-    what: str  #: ``unit``, ``plane``, ``scale``, ``checkpoints`` or ``distances``
+    what: str  #: ``unit``, ``plane``, ``scale``, ``checkpoints``, ``distances`` or ``facade``
     value: str  #: what is confirmed: ``"mm"``; of ``checkpoints`` and ``distances``: ``"not drawn"``
     by: str
     reason: str

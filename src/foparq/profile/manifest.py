@@ -126,7 +126,7 @@ class ContractSection(Strict):
 class ConfirmedSection(Strict):
     """``[[confirmed]]``: a statement that witnesses contradict, confirmed by a person."""
 
-    what: Literal["unit", "plane", "scale", "checkpoints", "distances"]
+    what: Literal["unit", "plane", "scale", "checkpoints", "distances", "facade"]
     value: Said  #: what is confirmed; of ``checkpoints`` and ``distances``: ``"not drawn"``
     by: Said  #: who answers for it
     reason: Said

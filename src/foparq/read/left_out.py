@@ -30,7 +30,7 @@ def left_out(raw: RawDrawing, section: DrawingSection, *, hidden: bool) -> tuple
     items = raw.items
     drawn = np.isin(items.role, _DRAWN) & ~items.paper & (items.visible | hidden)
     layers = sorted(set(items.layer[drawn].tolist()))
-    unplotted = {folded(name) for name in raw.reading.unplotted_layers} | {_DEFPOINTS}
+    unplotted = {folded(name) for name in raw.reading.unplotted} | {_DEFPOINTS}
     named = (*section.classes, *section.areas)
     why: dict[str, SkippedReason] = {}
     for layer in layers:

@@ -46,9 +46,9 @@ def _stated(one: ConfirmedSection, manifest: Manifest) -> list[str] | None:
     """Values that could be confirmed; ``None`` if any may be: a scale may be the reviewer's."""
     if one.what in {"checkpoints", "distances"}:
         return [_NOT_DRAWN]
-    if one.what in {"unit", "plane"}:
+    if one.what in {"unit", "plane", "facade"}:
         drawings = [section for section in manifest.drawing if _speaks_of(one, section)]
-        return [value for section in drawings if isinstance(value := getattr(section, one.what), str)]
+        return [value for section in drawings if isinstance(value := getattr(section, one.what), str) and value]
     return None
 
 

@@ -170,8 +170,7 @@ class _Report:
         count = self.words.count
         for name, found, out_of in element.details:
             parts.append(f"{detail_name(self.words, element, name)}: {count(found)} / {count(out_of)}")
-        if element.residuals is not None:
-            parts += [self._residual(row) for row in element.residuals.rows[:_LISTED]]
+        parts += [self._residual(row) for row in (element.residuals.rows[:_LISTED] if element.residuals else ())]
         return "; ".join(parts)
 
     def _residual(self, row: Residual) -> str:

@@ -137,17 +137,20 @@ def _standing_at(places: Coordinates, points: Coordinates, flat: int, tie: float
 def _groups(distances: Distances, ends: _Places, both: Flags, tie: float) -> Index:
     """(n,) number of the measurement that a row stands for.
 
-    Rows are one measurement if they run between the same points or the same names, in either direction; names apart,
-    three rows or more with the same lengths to the last digit.
+    Rows are one measurement if they run between the same points, or between the same names and are as long in the
+    drawing, in either direction; names apart, three rows or more with the same lengths to the last digit. "Left" and
+    "right" of twelve openings of unequal width are twelve measurements.
     """
     n = len(distances.id)
     group = np.arange(n)
+    drawn = np.where(np.isnan(distances.delivered), distances.measured, distances.delivered)
     by_names: dict[tuple[str, ...], list[int]] = defaultdict(list)
     for row, (a, b) in enumerate(zip(distances.start, distances.end, strict=True)):
         if a and b:
             by_names[tuple(sorted((folded(str(a)), folded(str(b)))))].append(row)
     for same_names in by_names.values():
-        group[same_names] = same_names[0]
+        rows = np.array(same_names)
+        group[rows] = rows[repeats(drawn[rows, None], apart=2 * tie)]
     rows = np.flatnonzero(both)
     if len(rows):
         pair = np.nan_to_num(ends.places[rows])

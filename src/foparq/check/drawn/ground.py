@@ -4,12 +4,14 @@
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import shapely
 
 from foparq.check.drawn.columns import Columns
 from foparq.columns import Coordinates, Flags, Geometries, Reals, Texts
+from foparq.geom.clusters import clusters
 from foparq.geom.extent import boxes_of, main_box
 from foparq.match.linework import Footing, Linework, footing, stands_in_space
 from foparq.model.drawing import Drawing
@@ -20,12 +22,21 @@ from foparq.names import folded
 _BESIDE = 0.5  #: metres between a point and the lettering that names it
 
 
+class Nearness(NamedTuple):
+    """Lengths of the profile, metres."""
+
+    tie: float  #: a point not farther from linework lies on it
+    apart: float  #: points not farther apart stand for one place
+    search: float  #: around a surveyed place, for its only vertex
+    visible: float  #: what is shorter cannot be measured in the drawing
+
+
 @dataclass(frozen=True, slots=True)
 class Ground:
     """Linework of one drawing; sheet coordinates, metres."""
 
     drawing: Drawing
-    work: Linework  #: m lines, boundaries and points
+    work: Linework  #: m lines and boundaries that can be seen
     item: Texts  #: (m,)
     layer: Texts  #: (m,)
     deep: bool  #: it stands in space: depths are compared
@@ -64,15 +75,28 @@ class Ground:
         return footing(self.on_sheet(places), self.work, within=within, deep=self.deep)
 
     def marked(self, places: Coordinates, within: Reals) -> Flags:
-        """(n,) whether an insert that bears a name stands at a place (n, 3), metres, in the axes of the file."""
-        labels = self.drawing.reading.labels
-        marks = labels.place[labels.block] * self.metres if labels is not None else np.empty((0, 3))
+        """(n,) whether an insert or point that bears a name is at a place (n, 3), metres, in the axes of the file."""
+        marks = self._marks() * self.metres
         if not len(marks):
             return np.zeros(len(places), dtype=bool)
         axes = 3 if self.deep else 2
         apart = self.on_sheet(places)[:, None, :axes] - self.on_sheet(marks)[None, :, :axes]
         at: Flags = np.any(np.linalg.norm(apart, axis=2) <= within[:, None], axis=1)
         return at
+
+    def _marks(self) -> Coordinates:
+        """Places (k, 3) of what bears a name, in the axes of the file, drawing units."""
+        labels = self.drawing.reading.labels
+        if labels is None or not len(labels.text):
+            return np.empty((0, 3))
+        marks: Coordinates = labels.place[labels.block]
+        beside = labels.place[~labels.block]
+        if len(self.points) and len(beside):
+            from scipy.spatial import cKDTree  # noqa: PLC0415 - slow to load
+
+            gap, row = cKDTree(self.points).query(beside, distance_upper_bound=_BESIDE / self.metres)
+            marks = np.concatenate([marks, self.points[row[np.isfinite(gap)]]])
+        return marks
 
     def bearing(self, name: str) -> Coordinates | None:
         """The one place (3,) that bears a name, in the axes of the file, metres; ``None`` if none does, or several.
@@ -104,30 +128,71 @@ class Ground:
         finite: Coordinates = np.nan_to_num(corners[np.isfinite(corners[:, :2]).all(axis=1)])
         return finite
 
+    def beyond(self, places: Coordinates, distance: Reals) -> Reals:
+        """Distances (n,) of places (n, 3) in metres, in the axes of the file, from the drawing.
+
+        Parameters
+        ----------
+        distance : (n,) metres
+            To the nearest linework in the plane. Where the drawing stands in space, what the place lies before or
+            behind all of it is added.
+        """
+        if not self.deep:
+            return distance
+        low, high = main_box(boxes_of(self.work.lines))
+        depth = self.on_sheet(places)[:, 2]
+        far: Reals = np.hypot(distance, np.maximum(0.0, np.maximum(low[2] - depth, depth - high[2])))
+        return far
+
     def longest(self) -> float:
         """Length of the longest line that fits into the box of the drawing, without strays."""
         low, high = main_box(boxes_of(self.work.lines))
         return float(np.linalg.norm(high - low))
 
 
-def ground_of(drawing: Drawing) -> Ground | None:
-    """What places are held against; ``None`` if nobody knows the unit of the drawing, or nothing is drawn."""
+def ground_of(drawing: Drawing, near: Nearness) -> Ground | None:
+    """What places are held against; ``None`` if nobody knows the unit of the drawing, or nothing is drawn.
+
+    Linework on layers that are not plotted, and what cannot be seen with all that touches it, show nothing. A point
+    without a name is no linework: it would be at the place that the table says, wherever that is.
+
+    Parameters
+    ----------
+    near : Nearness
+        Of the profile.
+    """
     if drawing.unit.metres is None:
         return None
     columns = Columns(drawing, hidden=False)
-    lines = columns.build(Lines, np.arange(len(columns.rows)))
+    plotted = ~np.isin(columns.layer.astype(str), drawing.reading.unplotted)
+    lines = columns.build(Lines, np.flatnonzero(plotted))
     assert isinstance(lines, Lines)  # noqa: S101 - what was asked for
-    point = np.flatnonzero((columns.role == Role.POINT) & _placed(columns.geometry))
+    point = np.flatnonzero(plotted & (columns.role == Role.POINT) & _placed(columns.geometry))
     at = columns.rows[point]
-    geometry: Geometries = np.concatenate([lines.geometry, columns.geometry[point]])
+    seen = _seen(lines.geometry, near)
+    geometry: Geometries = np.concatenate([lines.geometry[seen], columns.geometry[point]])
     if not len(geometry):
         return None
     return Ground(
-        drawing=drawing, work=Linework.of(geometry), item=np.concatenate([lines.item, drawing.items.item[at]]),
-        layer=np.concatenate([lines.layer, drawing.items.layer[at]]), deep=stands_in_space(geometry),
+        drawing=drawing, work=Linework.of(lines.geometry[seen]), item=lines.item[seen], layer=lines.layer[seen],
+        deep=stands_in_space(geometry),
         points=np.nan_to_num(shapely.get_coordinates(drawing.items.geometry[at], include_z=True)),
         named=_rows_by_name(drawing),
     )  # fmt: skip
+
+
+def _seen(lines: Geometries, near: Nearness) -> Flags:
+    """(m,) lines that are not smaller than what can be seen, with all that touches them."""
+    bounds = shapely.bounds(lines)
+    small = np.hypot(bounds[:, 2] - bounds[:, 0], bounds[:, 3] - bounds[:, 1]) < near.visible
+    if not small.any():
+        return np.ones(len(lines), dtype=bool)
+    group = clusters(lines, gap=near.tie)
+    low, high = np.full((len(lines), 2), np.inf), np.full((len(lines), 2), -np.inf)
+    np.minimum.at(low, group, bounds[:, :2])
+    np.maximum.at(high, group, bounds[:, 2:])
+    seen: Flags = (np.hypot(*(high - low).T) >= near.visible)[group]
+    return seen
 
 
 def _rows_by_name(drawing: Drawing) -> dict[str, list[int]]:

@@ -6,12 +6,13 @@ something to show for them: a vertex or linework, in the axes that the drawing h
 """
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
+from foparq.check.drawn.alike import alike_facades
 from foparq.check.drawn.distance_ties import tie_distances
-from foparq.check.drawn.ground import Ground, ground_of
+from foparq.check.drawn.ground import Ground, Nearness, ground_of
+from foparq.check.drawn.made import mostly, only_for_points
 from foparq.columns import Coordinates, Flags, Reals, Texts
 from foparq.findings.ties import Lies, PointTies, Ties
 from foparq.match.causes import Cause, by_axes_or_unit, by_place_or_size
@@ -24,15 +25,6 @@ from foparq.units import LENGTHS
 _UNITS = ("m", "mm", "cm", "in", "ft", "km")
 #: factors that a table in another unit is off by
 _FACTORS = tuple(sorted({LENGTHS[a] / LENGTHS[b] for a in _UNITS for b in _UNITS if a != b}))
-
-
-class Nearness(NamedTuple):
-    """Lengths of the profile, metres."""
-
-    tie: float  #: a point not farther from linework lies on it
-    apart: float  #: points not farther apart stand for one place
-    search: float  #: around a surveyed place, for its only vertex
-    visible: float  #: what is shorter cannot be measured in the drawing
 
 
 def tie_evidence(delivery: Delivery, near: Nearness) -> Ties:
@@ -48,9 +40,10 @@ def tie_evidence(delivery: Delivery, near: Nearness) -> Ties:
     Ties
         Without drawings of a known unit nothing is tied.
     """
-    grounds = [ground for drawing in delivery.drawings if (ground := ground_of(drawing)) is not None]
+    grounds = [ground for drawing in delivery.drawings if (ground := ground_of(drawing, near)) is not None]
     if not grounds:
         return Ties()
+    alike = alike_facades(grounds, within=near.tie)
     points, distances = None, None
     if delivery.checkpoints is not None and len(delivery.checkpoints.id):
         points = tie_points(delivery.checkpoints, grounds, near)
@@ -58,7 +51,7 @@ def tie_evidence(delivery: Delivery, near: Nearness) -> Ties:
         distances = tie_distances(
             delivery.distances, delivery.checkpoints, points, grounds, tie=near.tie, visible=near.visible
         )
-    return Ties(points=points, distances=distances, drawings=len(grounds))
+    return Ties(points=points, distances=distances, alike=alike, drawings=len(grounds))
 
 
 def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -> PointTies:
@@ -86,9 +79,11 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
     lies, gap, corner = np.full(n, str(Lies.ABSENT), dtype=object), np.full(n, np.inf), np.full(n, np.inf)
     names = {name: np.full(n, "", dtype=object) for name in ("drawing", "item", "layer")}
     delivered, compared = points.delivered.copy(), np.zeros((n, 3), dtype=bool)
+    made = np.zeros(n, dtype=bool)
+    held, far = np.zeros((n, len(grounds)), dtype=bool), np.full((n, len(grounds)), np.inf)
     untold = np.isnan(points.delivered).all(axis=1)
     within = np.full(n, near.tie + float(np.linalg.norm(points.printed)))
-    for ground in grounds:
+    for number, ground in enumerate(grounds):
         absent, places = lies == Lies.ABSENT, points.delivered.copy()
         bearing = _bearing(points.id, ground)
         by_name = untold & absent & np.isfinite(bearing).any(axis=1)
@@ -103,6 +98,8 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
         corner[on] = np.where(found.vertex[on] <= near.tie, found.vertex[on], np.inf)
         names["item"][on], names["layer"][on] = ground.item[found.line[on]], ground.layer[found.line[on]]
         apart = _apart(ground, places, bearing)
+        held[:, number] = (found.line != NOTHING) | (apart <= within) | by_name
+        far[:, number] = ground.beyond(places, found.distance)
         at_name = absent & ~on & (apart <= within)
         lies[at_name], gap[at_name] = str(Lies.NAMED), apart[at_name]
         corner[at_name] = np.where(apart[at_name] <= near.tie, apart[at_name], np.inf)
@@ -110,6 +107,9 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
         on |= at_name | by_name
         delivered[on & untold] = places[on & untold]
         names["drawing"][on] = ground.drawing.path
+        drawn = np.flatnonzero(on & ~at_name & ~by_name)
+        made[on] = False
+        made[drawn] = only_for_points(ground, places[drawn], within[drawn], near)
         compared[on] = True
         compared[on, ground.depth_axis] = ground.deep
     absent = lies == Lies.ABSENT
@@ -119,7 +119,18 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
     return PointTies(
         lies=lies, gap=gap, **names, delivered=delivered, group=repeats(points.surveyed, apart=near.apart),
         corner=corner, unchecked=~seen, cause=cause, near=drawing,
+        files=tuple(ground.drawing.path for ground in grounds),
+        facades=tuple(ground.drawing.facade for ground in grounds),
+        beside=_beside(far, absent, [ground.longest() for ground in grounds]), held=held,
+        made=mostly(made, [ground.drawing.path for ground in grounds], names["drawing"]),
     )  # fmt: skip
+
+
+def _beside(far: Reals, absent: Flags, longest: Sequence[float]) -> Flags:
+    """(n, d) the drawing that an absent point is nearest to, if it is not beyond that drawing's own diagonal."""
+    nearest = np.argmin(far, axis=1)[:, None] == np.arange(len(longest))
+    found: Flags = nearest & (far <= np.array(longest)) & absent[:, None]
+    return found
 
 
 def _bearing(ids: Texts, ground: Ground) -> Coordinates:

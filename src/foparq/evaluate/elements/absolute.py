@@ -40,7 +40,7 @@ def _axis(spec: AbsoluteSpec, evidence: Evidence, axis: int) -> Element:
             spec, "39", judged(ElementStatus.NOT_ASSESSED, case), id=id_, scope=scope, limit=limit, comparison="<",
             method="directExternal",
         )  # fmt: skip
-    tied = tied_points(points, evidence, id_)
+    tied = tied_points(points, evidence, id_, fewest=spec.fewest)
     resolution = resolution_of(points, evidence, axis)
     sample = Sample(
         kind="absolute", id=id_, all=tied.differences[:, axis], resolution=resolution, survey_sd=points.survey_sd

@@ -25,7 +25,8 @@ def faulty_rate(spec: FaultyRateSpec, evidence: Evidence) -> tuple[Element, ...]
     """Distinct faulty features of the named rules over the features checked; the limit may be reached.
 
     What is too small to be seen at the scale is no feature checked, unless it is at fault. The rate by length, and the
-    counts of each of several drawings, stand beside it and decide nothing.
+    counts of each of several drawings, stand beside it. The rate by length decides nothing; a drawing whose own rate
+    exceeds the limit leaves open what the others would hide.
 
     The order of decisions:
 
@@ -35,7 +36,7 @@ def faulty_rate(spec: FaultyRateSpec, evidence: Evidence) -> tuple[Element, ...]
        Whatever was not seen can only add faults to what was.
     4. A rule of the list was not part of the audit: not assessed.
     5. Rules that did not run, parts that nobody saw, and features set aside for other faults that could turn the
-       result: undecided.
+       result: undecided. So is a result that one of several drawings would not reach by itself.
     6. Otherwise it passes.
 
     Returns
@@ -103,6 +104,10 @@ def _judge(spec: FaultyRateSpec, evidence: Evidence, found: Tally, limit: float)
         doubts.append(
             because("faulty.aside", aside=found.aside, items=some(found.unjudged, total=found.aside), **fields)
         )
+    for path, faulty, counted in found.parts:
+        if faulty / counted > limit:
+            own = {"faulty": int(faulty), "checked": int(counted), "value": (faulty / counted, "1")}
+            doubts.append(because("faulty.one-drawing", element=name, file=path, limit=(limit, "1"), **own))
     if doubts:
         return judged(ElementStatus.UNDECIDED, *doubts, *remarks)
     return judged(ElementStatus.PASS, because("faulty.pass", **fields), *remarks)

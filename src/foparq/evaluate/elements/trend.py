@@ -48,7 +48,7 @@ def trend(spec: TrendSpec, evidence: Evidence) -> tuple[Element, ...]:
 
 def _axis(spec: TrendSpec, points: Checkpoints, evidence: Evidence, axis: int) -> Element:
     id_, scope = f"{spec.id}-{AXES[axis]}", evidence.files("checkpoints")
-    tied = tied_points(points, evidence, id_)
+    tied = tied_points(points, evidence, id_, fewest=spec.fewest)
     every = tied.differences[:, axis]
     known = every[np.isfinite(every)]
     found = moments(known)

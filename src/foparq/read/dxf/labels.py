@@ -2,7 +2,7 @@
 """Short letterings of a DXF file: what bears a name, and at which scale the sheet says it is drawn."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import Any
 
 import numpy as np
@@ -15,9 +15,17 @@ from foparq.read.dxf.text import readable, rendered_text
 from foparq.read.lettering import LONGEST_NAME, LONGEST_SCALE, MOST_NAMES, scales_in
 
 
-def labels_of(document: Any) -> Labels:  # noqa: ANN401 - ezdxf publishes no useful types
-    """Letterings of model space that may name a point: of texts, and of the attributes of inserts."""
-    found = [row for entity in model_entities(document) for row in _labels(entity)][:MOST_NAMES]
+def labels_of(document: Any, unseen: Collection[str] = ()) -> Labels:  # noqa: ANN401 - ezdxf publishes no useful types
+    """Letterings of model space that may name a point: of texts, and of the attributes of inserts.
+
+    Parameters
+    ----------
+    unseen : collection of str
+        Layers whose letterings name nothing: off, frozen or not plotted.
+    """
+    layers = {name.casefold() for name in unseen}
+    shown = (entity for entity in model_entities(document) if _shown(entity, layers))
+    found = [row for entity in shown for row in _labels(entity)][:MOST_NAMES]
     return Labels(
         text=texts([text for text, _, _ in found]),
         place=np.array([place for _, place, _ in found], dtype=float).reshape(-1, 3),
@@ -55,6 +63,13 @@ def _labels(entity: Any, longest: int = LONGEST_NAME) -> Iterator[tuple[str, tup
                 yield text, tuple(point.xyz), kind == "INSERT"
     except LEAKS:  # a damaged text names nothing; as an item it is told where items are read
         return
+
+
+def _shown(entity: Any, unseen: Collection[str]) -> bool:  # noqa: ANN401
+    try:
+        return not entity.dxf.get("invisible", 0) and readable(entity.dxf.layer).casefold() not in unseen
+    except LEAKS:
+        return False
 
 
 def _viewport(entity: Any) -> float:  # noqa: ANN401

@@ -88,6 +88,9 @@ def _read(path: Path, limits: LimitsSpec, sagitta: float, unit: str | None, *, e
     items = builder.columns.items(layers)
     _count_paper(document, items, builder)
     names = tuple(dict.fromkeys([*layers.table, *layers.names]))
+    hidden = tuple(name for name, hidden in zip(layers.names, layers.hidden, strict=True) if hidden)
+    off = {name.casefold() for name in unplotted_layers(document)}
+    unplotted = tuple(name for name in names if name.casefold() in off)
     reading = Reading(
         version=version,
         encoding=encoding,
@@ -96,11 +99,11 @@ def _read(path: Path, limits: LimitsSpec, sagitta: float, unit: str | None, *, e
         bombs=_bombs(model, census, refused, builder),
         bad_names=tuple(name for name in names if garbled(name, encoding)),
         dimensions=_dimensions(builder.dimensions),
-        labels=labels_of(document),
+        labels=labels_of(document, {*hidden, *unplotted}),
         scales=scales_of(document),
         layers=names,
-        hidden_layers=tuple(name for name, hidden in zip(layers.names, layers.hidden, strict=True) if hidden),
-        unplotted_layers=tuple(unplotted_layers(document)),
+        hidden_layers=hidden,
+        unplotted=unplotted,
     )
     return RawDrawing(items=items, reading=reading, unit=drawn_in)
 

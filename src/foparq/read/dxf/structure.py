@@ -12,6 +12,7 @@ from foparq.read.dxf.text import readable
 Answer = TypeVar("Answer")
 
 _EXTERNAL = 4 | 8  # flags of a block definition: external reference, overlay
+_NEVER = "Defpoints"  # layer of the points of dimensions, which CAD never plots, whatever is stated of it
 _CONSTANT = 2  # flag of an attribute definition
 
 
@@ -54,17 +55,17 @@ def layer_table(document: Any) -> list[tuple[str, bool, bool]]:  # noqa: ANN401 
     return table
 
 
-def unplotted_layers(document: Any) -> list[str]:  # noqa: ANN401
-    """Names of the layers that are not plotted; damaged entries are left out."""
-    names = []
+def unplotted_layers(document: Any) -> set[str]:  # noqa: ANN401
+    """Names of the layers that are not plotted, and of that which never is; damaged entries are left out."""
+    found = {_NEVER}
     for layer in asked(lambda: list(document.layers)):
         try:
             name, plots = layer.dxf.name, bool(layer.dxf.get("plot", 1))
         except LEAKS:
             continue
         if isinstance(name, str) and name and not plots:
-            names.append(readable(name))
-    return names
+            found.add(readable(name))
+    return found
 
 
 def model_entities(document: Any) -> list[Any]:  # noqa: ANN401
