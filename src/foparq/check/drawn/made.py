@@ -10,8 +10,8 @@ import numpy as np
 import shapely
 
 from foparq.check.drawn.ground import Ground, Nearness
-from foparq.model.layers import matching
 from foparq.columns import Coordinates, Flags, Geometries, Index, Reals, Texts
+from foparq.model.layers import matching
 
 _CORNERS = 2  #: corners of such a line for each point on it: a stroke has both ends, a line through points one each
 _SMALL = 50  #: a mark is not larger than so many times what can be seen: 10 mm on the sheet
