@@ -10,7 +10,7 @@ from tests.attacks import facades  # noqa: F401 - enters its attacks
 from tests.attacks.evidence import both, redrawn
 from tests.attacks.kinds import ATTACKS, BY_ID, BY_NAME, DXF
 from tests.attacks.statements import MODERN
-from tests.tools.offices import FRAMES, Office, office
+from tests.tools.offices import FRAMES, STYLES, Office, office
 from tests.tools.sound import audited
 
 from foparq.audit import Audit
@@ -146,7 +146,19 @@ def test_points_farther_away_than_the_drawing_is_large_are_not_of_it(
 ) -> None:
     said = {"what": "checkpoints", "value": "not drawn", **WHO}
     for seed in range(6):
-        made = office(2300 + seed, n=9, **{**BY_ID, "ends_by": "names", "axes": False, "lettering": ""})
+        made = office(
+            2300 + seed,
+            n=9,
+            **{
+                **BY_ID,
+                "ends_by": "names",
+                "axes": False,
+                "lettering": "",
+                "style": STYLES[0],
+                "table_unit": "m",
+                "digits": 4,
+            },
+        )
         corners = made.facade.corners()
         diagonal = float(np.linalg.norm(np.ptp(corners, axis=0)[: 2 if made.flat else 3]))
         # The highest corner, straight up: as far from the linework as it was moved.

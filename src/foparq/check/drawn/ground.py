@@ -37,6 +37,7 @@ class Ground:
 
     drawing: Drawing
     work: Linework  #: m lines and boundaries that can be seen
+    every: Linework  #: the same with what cannot be seen: in another unit it can
     item: Texts  #: (m,)
     layer: Texts  #: (m,)
     deep: bool  #: it stands in space: depths are compared
@@ -122,9 +123,9 @@ class Ground:
             beside = self.points[np.argmin(gap)]
         return beside
 
-    def corners(self) -> Coordinates:
-        """(v, 3) vertices on the sheet."""
-        corners = shapely.get_coordinates(self.work.lines, include_z=True)
+    def corners(self, *, every: bool = False) -> Coordinates:
+        """(v, 3) vertices on the sheet; those that cannot be seen too if asked for."""
+        corners = shapely.get_coordinates((self.every if every else self.work).lines, include_z=True)
         finite: Coordinates = np.nan_to_num(corners[np.isfinite(corners[:, :2]).all(axis=1)])
         return finite
 
@@ -170,11 +171,13 @@ def ground_of(drawing: Drawing, near: Nearness) -> Ground | None:
     point = np.flatnonzero(plotted & (columns.role == Role.POINT) & _placed(columns.geometry))
     at = columns.rows[point]
     seen = _seen(lines.geometry, near)
-    geometry: Geometries = np.concatenate([lines.geometry[seen], columns.geometry[point]])
+    geometry: Geometries = np.concatenate([lines.geometry, columns.geometry[point]])
     if not len(geometry):
         return None
+    work = Linework.of(lines.geometry[seen])
     return Ground(
-        drawing=drawing, work=Linework.of(lines.geometry[seen]), item=lines.item[seen], layer=lines.layer[seen],
+        drawing=drawing, work=work, every=work if seen.all() else Linework.of(lines.geometry),
+        item=lines.item[seen], layer=lines.layer[seen],
         deep=stands_in_space(geometry),
         points=np.nan_to_num(shapely.get_coordinates(drawing.items.geometry[at], include_z=True)),
         named=_rows_by_name(drawing),

@@ -193,12 +193,12 @@ def _cause_on(ground: Ground, places: Coordinates, within: Reals) -> Cause | Non
         return on_sheet(ground.on_sheet(moved))
 
     def on_sheet(moved: Coordinates) -> Flags:
-        lies: Flags = footing(moved, ground.work, within=within, deep=ground.deep).line != NOTHING
+        lies: Flags = footing(moved, ground.every, within=within, deep=ground.deep).line != NOTHING
         return lies
 
     step = float(within.max())
     return by_axes_or_unit(places, _FACTORS, in_file) or by_place_or_size(
-        ground.on_sheet(places), ground.corners(), within=step, holds=on_sheet
+        ground.on_sheet(places), ground.corners(every=True), within=step, holds=on_sheet
     )
 
 
