@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.attacks import evidence, repetition, statements  # noqa: F401 - enter their attacks
+from tests.attacks import evidence, outvoting, placing, repetition, statements  # noqa: F401 - enter their attacks
 from tests.attacks.kinds import ATTACKS, Attack
 from tests.tools.offices import office
 from tests.tools.sound import audited

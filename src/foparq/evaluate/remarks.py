@@ -7,6 +7,7 @@ from foparq.evaluate.quality import Element, Reason
 _REMARKS = frozenset({
     "absolute.upper", "relative.upper", "trend.not-normal", "trend.several", "residuals.outliers",
     "residuals.outliers-limit", "evidence.repeated", "evidence.repeated-distances", "evidence.taken", "evidence.flat",
+    "absolute.survey-finer", "relative.survey-finer",
     "evidence.names-only", "evidence.good", "evidence.absent-confirmed", "evidence.distances-confirmed",
     "checks.preview", "checks.unfit", "faulty.free", "features.unmapped", "omission.net", "omission.unproven",
 })  # fmt: skip

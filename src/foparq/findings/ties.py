@@ -15,6 +15,10 @@ def _untold() -> Reals:
     return np.empty(0)
 
 
+def _unnumbered() -> Index:
+    return np.empty(0, dtype=np.intp)
+
+
 class Lies(StrEnum):
     """Where a checkpoint lies in the drawings; each is an id in the ``report`` catalogue under ``lies.``."""
 
@@ -66,6 +70,7 @@ class DistanceTies:
     group: Index  #: (n,) rows that repeat one measurement have one number
     longest: float  #: greatest length that a drawing holds, metres; NaN without a drawing
     factor: float = 1.0  #: with which all lengths would be those between the ends: another unit
+    alike: Index = field(default_factory=_unnumbered)  #: (n,) lengths that cannot be seen to differ; empty: untold
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
