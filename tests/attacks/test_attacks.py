@@ -5,7 +5,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.attacks import evidence, facades, marks, repetition, statements  # noqa: F401 - enter their attacks
+from tests.attacks import (  # noqa: F401 - enter their attacks
+    evidence,
+    facades,
+    marks,
+    outvoting,
+    placing,
+    repetition,
+    statements,
+)
 from tests.attacks.kinds import ATTACKS, Attack
 from tests.tools.offices import office
 from tests.tools.sound import audited

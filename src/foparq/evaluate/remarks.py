@@ -9,6 +9,7 @@ _REMARKS = frozenset({
     "trend.not-normal", "trend.several", "residuals.outliers",
     "residuals.outliers-limit", "outlier.contradicted", "outlier.borne-out",
     "evidence.repeated", "evidence.repeated-distances", "evidence.taken", "evidence.flat",
+    "absolute.survey-finer", "relative.survey-finer",
     "evidence.names-only", "evidence.good", "evidence.absent-confirmed", "evidence.distances-confirmed",
     "checks.preview", "checks.unfit", "faulty.free", "faulty.probable",
     "features.unmapped", "omission.net", "omission.unproven", "evidence.most-confirmed", "evidence.unnamed",

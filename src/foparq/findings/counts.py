@@ -88,12 +88,13 @@ class FeatureCounts:
     count: Index  #: (n,)
     most: Index = field(default_factory=_left_out)  #: (n,) without nesting, every block one; left out: ``count``
     pieces: Index = field(default_factory=_left_out)  #: (n,) blocks that may hold several opened; left out: ``most``
+    near: Index = field(default_factory=_left_out)  #: (n,) of ``count``, without what lies astray; left out: ``count``
     unmapped: tuple[tuple[str, int], ...] = ()  #: layers that no class is bound to, with their items: not assessed
     hidden: tuple[tuple[str, str, str], ...] = ()  #: class, facade and layer of items that nobody sees
     found: FoundFeatures = field(default_factory=FoundFeatures.none)  #: of which the counts are made
     placements: Placements | None = None  #: of the list; ``None`` if it gives no places
 
     def __post_init__(self) -> None:
-        for name, instead in (("most", "count"), ("pieces", "most")):
+        for name, instead in (("most", "count"), ("pieces", "most"), ("near", "count")):
             if not len(getattr(self, name)):
                 object.__setattr__(self, name, getattr(self, instead))

@@ -44,6 +44,10 @@ class Alike(NamedTuple):
     mirrored: bool
 
 
+def _unnumbered() -> Index:
+    return np.empty(0, dtype=np.intp)
+
+
 class Lies(StrEnum):
     """Where a checkpoint lies in the drawings; each is an id in the ``report`` catalogue under ``lies.``."""
 
@@ -102,6 +106,7 @@ class DistanceTies:
     factor: float = 1.0  #: with which all lengths would be those between the ends: another unit
     places: Reals = field(default_factory=_placeless)  #: (n, 2, 3) the ends, metres, NaN if unknown; empty: untold
     at: Index = field(default_factory=_nowhere)  #: (n, 2) row of the checkpoint that the end is, or -1; empty: untold
+    alike: Index = field(default_factory=_unnumbered)  #: (n,) lengths that cannot be seen to differ; empty: untold
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -75,7 +75,8 @@ def tie_distances(
     ).astype(object)  # fmt: skip
     return DistanceTies(
         ends=told, between=between, delivered=delivered, group=_groups(distances, ends, both, tie),
-        longest=longest, factor=_factor(between, delivered, told == Ends.OTHER_LENGTH), places=ends.places, at=ends.at,
+        alike=repeats(length[:, None], apart=visible), longest=longest,
+        factor=_factor(between, delivered, told == Ends.OTHER_LENGTH), places=ends.places, at=ends.at,
     )  # fmt: skip
 
 

@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
+from foparq.check.drawn.astray import astray
 from foparq.check.drawn.facts import all_layers
 from foparq.check.drawn.readings import Place, Readings, read_features
-from foparq.columns import Geometries, Index, Reals, Texts
+from foparq.columns import Flags, Geometries, Index, Reals, Texts
 from foparq.findings.counts import FeatureCounts, FoundFeatures
 from foparq.geom.rounding import FARTHEST
 from foparq.model.drawing import Drawing, SkippedReason
@@ -75,8 +76,10 @@ def count_features(drawings: Sequence[Drawing], *, gap: float) -> FeatureCounts 
     ``count``: what may be part of another feature of its class is part of it. That is what lies within the hull of the
     other, or more than a tenth within it; loose linework nearer to it than ``gap``; and loose linework of less than a
     tenth of its area, no farther from it than a quarter of its width (twice its area over its girth), as a sill. An
-    outline of less than a hundredth of the middle area of its class is part of something too. Of drawings that show the
-    same facade, the one with most features counts.
+    outline that is out of proportion to its class is part of something too: less than a hundredth of the middle area
+    or, where the class is compact as windows are, than a twentieth of it, or more than eight times the middle girth.
+    What lies astray of the drawing (:func:`foparq.check.drawn.astray.astray`) is counted, and told as such. Of
+    drawings that show the same facade, the one with most features counts.
 
     ``most``: nothing belongs to what surrounds it. A block that is placed only once may hold several features: each
     block within it is one, except those inside the hull of another. A block that is placed several times may hold as
@@ -107,10 +110,13 @@ def count_features(drawings: Sequence[Drawing], *, gap: float) -> FeatureCounts 
         _add(totals, drawing, gap)
     ordered = sorted(totals.tallies)
     found = [totals.tallies[key] for key in ordered]
+    fewest = [max((tally.fewest for tally in tallies), default=0) for tallies in found]
+    near = [max((tally.fewest - tally.astray for tally in tallies), default=0) for tallies in found]
     return FeatureCounts(
         feature_class=np.array([totals.shown(name) for name, _ in ordered], dtype=object),
         facade=np.array([totals.shown(facade) for _, facade in ordered], dtype=object),
-        count=np.array([max((tally.fewest for tally in tallies), default=0) for tallies in found], dtype=np.intp),
+        count=np.array(fewest, dtype=np.intp),
+        near=np.array(near, dtype=np.intp),
         most=np.array([sum(int(tally.most.sum()) for tally in tallies) for tallies in found], dtype=np.intp),
         pieces=np.array([sum(int(tally.pieces.sum()) for tally in tallies) for tallies in found], dtype=np.intp),
         unmapped=tuple(sorted(totals.unmapped.items())),
@@ -153,6 +159,7 @@ def _add(totals: _Totals, drawing: Drawing, gap: float) -> None:
         elif named[row]:
             totals.unmapped[items.layer[row]] += 1
     place_of = dict(zip(rows.tolist(), places, strict=True))
+    far = _astray(drawing)
     bound = _bound_classes(drawing)
     for name in bound:
         totals.tallies.setdefault((totals.fold(name, of_kind), facade), [])
@@ -162,7 +169,7 @@ def _add(totals: _Totals, drawing: Drawing, gap: float) -> None:
         shown = items.visible[mine] & ~items.paper[mine]
         seen, flat, depth = _in_plane(drawing, mine[shown])
         at = [place_of[row] for row in seen.tolist()]
-        read = read_features(flat, at, gap=gap)
+        read = read_features(flat, at, far[seen], gap=gap)
         totals.tallies[key, facade].append(read)
         totals.rows += _outlines((key, facade), drawing, read, seen, at, depth, gap)
         # A block has parts that are not shown, in programs that switch its forms; it is drawn all the same.
@@ -228,6 +235,19 @@ def _in_plane(drawing: Drawing, rows: Index) -> tuple[Index, Geometries, Reals]:
     first = np.unique(index[seen], return_index=True)[1]
     flat = shapely.set_coordinates(shapely.force_2d(geometry[there]), sheet[seen, :2])
     return rows[there], flat, sheet[seen, 2][first]
+
+
+def _astray(drawing: Drawing) -> Flags:
+    """(n,) items that lie astray of all that the drawing shows in model space."""
+    items = drawing.items
+    far = np.zeros(len(items.geometry), dtype=bool)
+    shown = np.flatnonzero(items.visible & ~items.paper & np.isin(items.role, [Role.LINE, Role.AREA]))
+    rows, flat, depth = _in_plane(drawing, shown[~shapely.is_empty(items.geometry[shown])])
+    if len(rows):
+        box = shapely.bounds(flat)
+        low, high = np.column_stack([box[:, :2], depth]), np.column_stack([box[:, 2:], depth])
+        far[rows] = astray(low, high, shapely.length(flat))
+    return far
 
 
 def _outlines(

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from foparq.columns import Flags, Geometries, Index, Texts
+from foparq.columns import Flags, Geometries, Index, Reals, Texts
 from foparq.findings.counts import Reading
 from foparq.geom.clusters import clusters
 from foparq.geom.hulls import across, hulls_of, larger_neighbours, leaders, outermost, share_within
@@ -19,7 +19,11 @@ _OVERLAP = 0.1
 #: a piece with a smaller share of the area of a neighbour may be part of it: a sill, a keystone
 _PIECE = 0.1
 _BESIDE = 0.25  #: share of the width of that neighbour, how far from it such a piece may lie
-_SPECK = 0.01  #: share of the middle area of the class, below which an outline is out of proportion to a feature
+#: Share of the middle area of the class, below which an outline is out of proportion to a feature. Cornices and other
+#: long things have short pieces; windows and doors are more alike.
+_SPECK, _SPECK_OF_COMPACT = 0.01, 0.05
+_BULK_OF_COMPACT = 8.0  #: times the middle girth of such a class, above which an outline is out of proportion too
+_COMPACT = 0.5  #: 4 pi area over the square of the girth: a rectangle four times as long as wide has 0.5, a square 0.79
 _ALIKE = 0.25  #: share of the area of the largest piece of a block, from which another may be a feature like it
 _APART = 0.04  #: share of the girth of the largest piece, by which features within a block stand apart
 
@@ -45,6 +49,7 @@ class Readings:
     most: Index  #: (k,) the most features that it may be; 0 for copies
     pieces: Index  #: (k,) the same, blocks that may hold several being opened
     lines: Geometries  #: (k,) collections of what each is made of
+    astray: int = 0  #: outlines among the counted that lie astray of the drawing
 
     @property
     def fewest(self) -> int:
@@ -52,13 +57,15 @@ class Readings:
         return int(np.count_nonzero(self.reading == Reading.COUNTED))
 
 
-def read_features(flat: Geometries, places: Sequence[Place], *, gap: float) -> Readings:
+def read_features(flat: Geometries, places: Sequence[Place], far: Flags, *, gap: float) -> Readings:
     """Features of one class, from linework in the plane and what layers and inserts say of it.
 
     Parameters
     ----------
     flat : (n,) shapely geometries, metres
     places : n Place
+    far : (n,) bool
+        Linework that lies astray of the drawing; features that have no other are told apart.
     gap : float, metres
 
     Returns
@@ -88,6 +95,8 @@ def read_features(flat: Geometries, places: Sequence[Place], *, gap: float) -> R
     reading[own] = Reading.COUNTED.value
     rows = np.flatnonzero(own)
     reading[rows[_parts(hulls[rows], rows >= inserts, gap)]] = Reading.PART.value
+    near = np.bincount(feature, weights=~far, minlength=len(hulls)) > 0
+    lone = int(np.count_nonzero(~near & (reading == Reading.COUNTED)))
     # A copy may hold what its leader does not.
     for number in (most, pieces):
         np.maximum.at(number, lead, number.copy())
@@ -95,7 +104,7 @@ def read_features(flat: Geometries, places: Sequence[Place], *, gap: float) -> R
     made: Geometries = np.full(len(hulls), None, dtype=object)
     order = np.argsort(feature, kind="stable")
     shapely.geometrycollections(flat[order], indices=feature[order], out=made)
-    return Readings(hulls[seen], first[seen], reading[seen], most[seen], pieces[seen], made[seen])
+    return Readings(hulls[seen], first[seen], reading[seen], most[seen], pieces[seen], made[seen], lone)
 
 
 def _parts(hulls: Geometries, loose: Flags, gap: float) -> Flags:
@@ -103,7 +112,7 @@ def _parts(hulls: Geometries, loose: Flags, gap: float) -> Flags:
     part = ~outermost(hulls, np.zeros(len(hulls), dtype=np.intp))
     area = shapely.area(hulls)
     if len(hulls):
-        part |= area < _SPECK * np.median(area)
+        part |= _out_of_proportion(area, shapely.length(hulls))
     rows = np.flatnonzero(~part)
     # Of a rectangle a little less than its shorter side, however it is turned.
     width = 2 * area / np.maximum(shapely.length(hulls), np.finfo(float).tiny)
@@ -114,6 +123,16 @@ def _parts(hulls: Geometries, loose: Flags, gap: float) -> Flags:
     touching = loose[smaller] & (shapely.distance(hulls[smaller], hulls[larger]) <= gap)
     part[smaller[beside | touching]] = True
     return part
+
+
+def _out_of_proportion(area: Reals, girth: Reals) -> Flags:
+    """(k,) outlines that are too small, or of compact things too large, to be like the others of their class."""
+    round_ = 4 * np.pi * area / np.maximum(girth, np.finfo(float).tiny) ** 2
+    if not np.median(round_) > _COMPACT:
+        small: Flags = area < _SPECK * np.median(area)
+        return small
+    out: Flags = (area < _SPECK_OF_COMPACT * np.median(area)) | (girth > _BULK_OF_COMPACT * np.median(girth))
+    return out
 
 
 def _inserts(

@@ -13,6 +13,7 @@ from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.residuals import naming_worst, point_residuals
 from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters, with_doubts
 from foparq.evaluate.tied import resolution_of, tied_points, unchecked
+from foparq.evaluate.weighed import half_step, with_survey
 from foparq.evaluate.witnessed import with_distances
 from foparq.profile.elements import AXES, AbsoluteSpec
 
@@ -48,6 +49,7 @@ def _axis(spec: AbsoluteSpec, evidence: Evidence, axis: int) -> Element:
     judgement = judged(ElementStatus.UNDECIDED, no_limit) if no_limit else judge_rmse(sample, spec, limit or 0.0)
     residuals = point_residuals(points, tied, evidence, axis, spec.confidence)
     judgement = naming_worst(judgement, residuals, id_, limit)
+    judgement = with_survey(judgement, sample, half_step(float(points.resolution[axis]), float(points.printed[axis])))
     judgement = with_doubts(judgement, tied, sample, unchecked(evidence, axis, id_))
     found = moments(sample.known)
     return element(

@@ -8,6 +8,7 @@ from foparq.evaluate.quality import Element, ElementStatus, because
 from foparq.evaluate.residuals import distance_residuals, naming_worst
 from foparq.evaluate.threshold import Sample, judge_rmse, rmse_parameters, with_doubts
 from foparq.evaluate.tied import tied_distances
+from foparq.evaluate.weighed import half_step, outvoted, with_survey
 from foparq.profile.elements import RelativeSpec
 
 _MEASURE = "foparq:distance-rmse"
@@ -38,6 +39,8 @@ def relative(spec: RelativeSpec, evidence: Evidence) -> tuple[Element, ...]:
     judgement = judged(ElementStatus.UNDECIDED, no_limit) if no_limit else judge_rmse(sample, spec, limit or 0.0)
     residuals = distance_residuals(distances, tied, evidence, spec.confidence)
     judgement = naming_worst(judgement, residuals, spec.id, limit)
+    judgement = outvoted(judgement, sample, tied.rows, evidence, limit or 0.0)
+    judgement = with_survey(judgement, sample, half_step(distances.resolution, distances.printed))
     judgement = with_doubts(judgement, tied, sample)
     found = moments(sample.known)
     made = element(
