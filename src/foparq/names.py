@@ -46,7 +46,7 @@ def nearest(word: str, known: Iterable[str]) -> list[str]:
     Examples
     --------
     >>> nearest("chek", ["audit", "check", "init"])
-    ['check', 'init', 'audit']
+    ['check', 'audit', 'init']
     """
     names = list(known)
     alike = [likeness(word, name) for name in names]

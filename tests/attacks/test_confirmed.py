@@ -53,7 +53,8 @@ DOUBTS = {
 def printed(done: Audit) -> list[dict[str, object]]:
     quality = done.record.quality
     said = (*quality.why, *quality.remarks)
-    return [dict(reason.fields) for reason in said if reason.message == "verdict.confirmed"]
+    told = [dict(reason.fields) for reason in said if reason.message == "verdict.confirmed"]
+    return [{name: value for name, value in fields.items() if name != "when" or value} for fields in told]
 
 
 @pytest.mark.parametrize("name", DOUBTS)

@@ -159,7 +159,7 @@ def test_a_decision_may_have_a_day(tmp_path: Path) -> None:
         path.write_text(said + line)
         with pytest.raises(ManifestError) as caught:
             load_manifest(path)
-        assert caught.value.fields["example"] == "date = 2026-11-30"
+        assert caught.value.fields["example"] == "date = 2026-11-20"
     (told,) = (one for one in judged(30, decision(20, date="2026-02-28")).why if one.message == "features.decided")
     for language in ("en", "pt-BR"):
         assert "A. Souza (2026-02-28)" in reason_sentence(Words(language), told)

@@ -93,9 +93,13 @@ def chained(lines: list[NDArray[np.float64]], coincide: float) -> tuple[Drawing,
     ways, pieces = [], []
     for chain in chains:
         way = [deep[n][::-1] if backwards else deep[n] for n, backwards in chain]
-        ways.append(np.concatenate(way))
+        joined = np.concatenate(way)
         owner = np.concatenate([np.full(len(part), n) for part, (n, _) in zip(way, chain, strict=True)])
-        pieces.append(owner[:-1])
+        # Two ends at the very same place are one vertex.
+        twice = np.append(np.all(joined[1:] == joined[:-1], axis=1) & (owner[1:] != owner[:-1]), [False])
+        ways.append(joined[~twice])
+        # The segment behind a vertex that was left out belongs to the line that follows.
+        pieces.append(owner[~twice][:-1])
     drawing = Drawing(ways)
     drawing.piece = np.concatenate(pieces)
     of = {(n, last): k for k, chain in enumerate(chains) for n, _ in chain for last in (False, True)}

@@ -87,7 +87,7 @@ def test_end_beyond_a_line_straight_into_the_depth_is_an_overshoot() -> None:
     # Seen from above a post in a rail, which goes on for 5 mm beyond it.
     post, rail = "LINESTRING Z (0 0 0, 0 0 1)", "LINESTRING Z (-1 0 0, 0.005 0 0)"
     table = Polylines.of(np.array([shapely.from_wkt(post), shapely.from_wkt(rail)]))
-    ends = classify_ends(table, coincide=1e-4, reach=1e-2)
+    ends = classify_ends(table, AIM, coincide=1e-4, reach=1e-2)
     beyond = np.flatnonzero((ends.line == 1) & ~ends.forward)
     assert ends.kind[beyond].tolist() == [EndKind.OVERSHOOT]
     assert ends.size[beyond] == pytest.approx([0.005])
@@ -107,16 +107,14 @@ def across(side: float, length: float) -> Way:
     return [(-length * (0.5 - side / 4), -length * (0.5 - side / 4)), (length * (0.5 + side / 4),) * 2]
 
 
-@pytest.mark.parametrize(
-    ("kind", "made", "end"), [(EndKind.UNDERSHOOT, beside, 0.0), (EndKind.OVERSHOOT, across, 2**-8)]
-)
+@pytest.mark.parametrize(("kind", "made", "end"), [(EndKind.BESIDE, beside, 0.0), (EndKind.OVERSHOOT, across, 2**-8)])
 @pytest.mark.parametrize(("left", "right"), [(0.5, 0.25), (0.25, 0.5), (0.5, 0.5)])
 def test_of_lines_as_near_the_longest_is_named_of_equals_the_first_by_place(
     left: float, right: float, kind: EndKind, made: Callable[[float, float], Way], end: float
 ) -> None:
     asked, named = [(0.0, -1.0), (0.0, end)], made(-1, left) if left >= right else made(1, right)
     for lines in itertools.permutations([asked, made(-1, left), made(1, right)]):
-        ends = classify_ends(polylines([np.array(way) for way in lines]), coincide=1e-4, reach=1e-2)
+        ends = classify_ends(polylines([np.array(way) for way in lines]), AIM, coincide=1e-4, reach=1e-2)
         tip = np.flatnonzero((ends.line == lines.index(asked)) & ~ends.forward)
         assert ends.kind[tip].tolist() == [kind]
         assert ends.size[tip] == pytest.approx([2**-8])
@@ -127,7 +125,7 @@ def test_of_lines_as_near_the_longest_is_named_of_equals_the_first_by_place(
 def test_a_line_exactly_at_reach_is_within(gap: float, kind: EndKind) -> None:
     for turned in (0, 1):
         lines = [np.array([(-3.0, 0.0), (-gap, 0.0)]), np.array([(0.0, -2.0), (0.0, 2.0)])]
-        ends = classify_ends(polylines([np.roll(way, turned, axis=1) for way in lines]), coincide=1e-4, reach=0.25)
+        ends = classify_ends(polylines([np.roll(way, turned, axis=1) for way in lines]), AIM, coincide=1e-4, reach=0.25)
         assert ends.kind[:2].tolist() == [EndKind.FREE, kind]
 
 

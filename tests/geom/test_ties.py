@@ -5,6 +5,7 @@ Drawings on a coarse grid are full of ties.
 """
 
 from collections import Counter
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,12 +23,23 @@ from foparq.geom.overlaps import line_overlaps
 from foparq.geom.places import place_on
 from foparq.geom.polylines import Polylines
 from foparq.model.inputs import Areas, Features, Lines, areas_of, features_of, lines_of
+from foparq.model.layers import bonds
 
 Drawing = list[Any]
 TOLERANCES = {"coincide": 0.0004, "reach": 0.0103, "least": 1.23e-5, "most": 0.01234}
 BY_UNIT = {"m": 0.0203, "m2": 0.00123, "1": 0.1234, "items": 3.0}
 RULES = [rule for rule in all_rules().values() if rule.subject in {Lines, Areas, Features}]
-MADE = {Lines: lines_of, Areas: areas_of, Features: features_of}
+
+
+def layered(drawing: "Drawing") -> Lines:
+    """Lines on three layers: rings, and others by their lengths, which no way of drawing changes."""
+    made = lines_of(drawing)
+    steps = np.round(shapely.length(made.geometry) / 0.004).astype(int)
+    layer = np.where(shapely.is_closed(made.geometry), "RINGS", np.where(steps % 2, "ODD", "EVEN")).astype(object)
+    return replace(made, layer=layer, bond=bonds(layer, {}, ()))
+
+
+MADE = {Lines: layered, Areas: areas_of, Features: features_of}
 
 
 def linework(rng: np.random.Generator) -> Drawing:
@@ -55,7 +67,8 @@ def linework(rng: np.random.Generator) -> Drawing:
     lone = shapely.LineString([(1, 1), (2, 1)])
     dashes = [shapely.LineString([(1 + 0.028 * n, 2), (1.02 + 0.028 * n, 2)]) for n in range(7)]
     bars = [shapely.LineString([(1, y), (2, y)]) for y in (3, 4)] + [shapely.LineString([(2.02, 2), (2.02, 6)])]
-    return [*walks, *rings, *crumbs, *doubled, *gaps, lone, *dashes, *bars, walks[0], walks[1]]
+    stones = [shapely.LineString(shapely.box(x, y, x + 0.3, y + 0.2).exterior) for x in (3, 3.3) for y in (0, 0.2, 0.4)]
+    return [*walks, *rings, *crumbs, *doubled, *gaps, lone, *dashes, *bars, *stones, walks[0], walks[1]]
 
 
 def areas(rng: np.random.Generator) -> Drawing:

@@ -195,7 +195,7 @@ def test_too_many_features_or_vertices(tmp_path: Path) -> None:
         (b"", "read.empty"),
         (b"PK\x03\x04....", "read.archive"),
         (b"AC1027......", "read.dwg"),
-        (b"%PDF-1.7", "read.not-a-drawing"),
+        (b"%PDF-1.7", "read.pdf"),
         (b"just some text", "read.unknown-format"),
         (b"\x00" * 200, "read.unknown-format"),
     ],

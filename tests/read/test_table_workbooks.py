@@ -167,8 +167,11 @@ def test_a_hidden_first_sheet_is_not_what_people_see(tmp_path: Path, write: Writ
 def test_a_survey_names_the_sheets_that_are_seen(tmp_path: Path, write: Writer) -> None:
     lengths: Rows = [["id", "measured"], ["A", 1.5]]
     others: dict[str, Rows] = {"Notas": [["nada"]], "Medidas": lengths}
-    assert tables_in(write(tmp_path / "t", lengths, others=others)) == [("distances", None), ("distances", "Medidas")]
-    assert tables_in(write(tmp_path / "u", lengths, others=others, hidden="Plan1")) == [("distances", "Medidas")]
+    assert tables_in(write(tmp_path / "t", lengths, others=others))[0] == [
+        ("distances", None),
+        ("distances", "Medidas"),
+    ]
+    assert tables_in(write(tmp_path / "u", lengths, others=others, hidden="Plan1"))[0] == [("distances", "Medidas")]
 
 
 def test_a_text_table_has_no_sheet(tmp_path: Path) -> None:

@@ -139,7 +139,7 @@ def test_contents_of_a_kind_that_nobody_knows_leave_the_question_open() -> None:
 def test_what_shows_no_linework_leaves_nothing_open() -> None:
     closed = {reason.value for reason in SkippedReason if not reason.opens}
     assert closed == {
-        "above-header", "attributes", "degenerate", "image", "infinite-line", "no-geometry", "not-asked", "ole",
-        "paper-space", "raster", "trigger", "unlisted-geometry", "unlisted-view", "unlisted-virtual-table", "viewport",
-        "wipeout", "xclip-ignored",
+        "above-header", "attributes", "degenerate", "ignored-layer", "image", "infinite-line", "no-geometry",
+        "not-asked", "not-plotted", "ole", "paper-space", "raster", "trigger", "unlisted-geometry", "unlisted-view",
+        "unlisted-virtual-table", "viewport", "wipeout", "xclip-ignored",
     }  # fmt: skip

@@ -18,6 +18,11 @@ from foparq.model.layers import class_of, matches
 
 _MOST = 0.5  #: of the items or of their length
 _LAYERS = 10  #: that a reason names
+#: what hides a feature, and what leaves out most of the linework
+_DOUBTS = {
+    "element": ("unseen.ignored-feature", "unseen.ignored-most"),
+    "files": ("files.ignored-feature", "files.ignored-most"),
+}
 _REMARKS = {SkippedReason.IGNORED_LAYER: "verdict.ignored", SkippedReason.NOT_PLOTTED: "verdict.not-plotted"}
 
 
@@ -42,16 +47,16 @@ def left_out_doubts(evidence: Evidence, name: str = "") -> tuple[Reason, ...]:
     name : str
         Id of the element that is left open; ``""`` for loose files.
     """
-    what, fields = ("unseen", {"element": name}) if name else ("files", {})
+    (feature, most), fields = (_DOUBTS["element"], {"element": name}) if name else (_DOUBTS["files"], {})
     why: list[Reason] = []
     for drawing in evidence.delivery.drawings:
         asked = _layers(drawing, SkippedReason.IGNORED_LAYER)
         every = (*asked, *_layers(drawing, SkippedReason.NOT_PLOTTED))
         if meant := [layer for layer in asked if _meant(drawing, layer)]:
-            why.append(because(f"{what}.ignored-feature", file=drawing.path, layers=meant[:_LAYERS], **fields))
+            why.append(because(feature, file=drawing.path, layers=meant[:_LAYERS], **fields))
         if every and (share := _share(drawing, every)) > _MOST:
             told = sorted(every)[:_LAYERS]
-            why.append(because(f"{what}.ignored-most", file=drawing.path, layers=told, share=(share, "1"), **fields))
+            why.append(because(most, file=drawing.path, layers=told, share=(share, "1"), **fields))
     return tuple(why)
 
 

@@ -59,7 +59,7 @@ def bonds(layers: Texts, classes: Mapping[str, str], bind: Sequence[Sequence[str
     Examples
     --------
     >>> bonds(np.array(["WALL", "Wall", "DOOR", "SILL"], dtype=object), {}, [["door", "s*"]]).tolist()
-    [0, 0, 1, 1]
+    [1, 1, 0, 0]
     """
     names, inverse = np.unique(layers.astype(str), return_inverse=True)
     joined = _Joined()

@@ -84,10 +84,11 @@ def _parameters(body: str, tolerances: set[str]) -> list[Section]:
 def _bound(words: Words, card: Card) -> str:
     """How the specification that is used by default binds the rule."""
     path = shipped("rules") / "profiles" / f"{_PROFILE}.toml"
-    checks = tomllib.loads(path.read_text(encoding="utf-8")).get("check", [])
-    found: Mapping[str, object] | None = next((check for check in checks if check["rule"] == card.name), None)
-    if found is None:
+    profile = tomllib.loads(path.read_text(encoding="utf-8"))
+    checks: list[Mapping[str, object]] = [one for one in profile.get("check", []) if one["rule"] == card.name]
+    if not checks:
         return ""
+    found = {**profile.get("linework", {}), **checks[0]}
     severity = words(f"report.severity.{found['severity']}")
     values = [f'{name} = "{found[name]}"' for name, _ in card.tolerances if name in found]
     said = words("report.manual.bound", profile=_PROFILE, values=[severity, *values])

@@ -242,7 +242,7 @@ def _astray(drawing: Drawing) -> Flags:
     items = drawing.items
     far = np.zeros(len(items.geometry), dtype=bool)
     shown = np.flatnonzero(items.visible & ~items.paper & np.isin(items.role, [Role.LINE, Role.AREA]))
-    rows, flat, depth = _in_plane(drawing, shown[~shapely.is_empty(items.geometry[shown])])
+    rows, flat, depth = _in_plane(drawing, shown[shapely.get_num_coordinates(items.geometry[shown]) > 0])
     if len(rows):
         box = shapely.bounds(flat)
         low, high = np.column_stack([box[:, :2], depth]), np.column_stack([box[:, 2:], depth])
