@@ -25,6 +25,12 @@ from foparq.profile.load import load_manifest
         ("[delivery]\n\n[delivery.x]\ny = 1\n", "toml.unknown-key", 3, "x"),
         ('[checkpoints]\nunit = "mm"\n', "toml.missing-key", 1, "path"),
         ('[delivery]\n[[drawing]]\npath = "a"\n[[drawing]]\nfacade = "N"\n', "toml.missing-key", 4, "path"),
+        (
+            '[checkpoints]\npath = "p.csv"\nsurvey_sd = "0.3 mm @ scale"\n',
+            "quantity.on-sheet-at",
+            3,
+            "checkpoints.survey_sd",
+        ),
     ],
 )
 def test_a_mistake_is_told_with_its_own_key_and_line(

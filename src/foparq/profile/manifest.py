@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field
 
-from foparq.profile.quantities import Length, ScaleText, Strict
+from foparq.profile.quantities import LengthOnObject, ScaleText, Strict
 from foparq.units import parse_length_unit
 
 
@@ -70,7 +70,7 @@ class TableSection(Strict):
 class SurveySection(TableSection):
     """``[checkpoints]`` and ``[distances]``: a table and how well it was surveyed."""
 
-    survey_sd: Length | None = None
+    survey_sd: LengthOnObject | None = None
     unit: UnitName = "m"
 
 

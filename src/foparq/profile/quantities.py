@@ -6,6 +6,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
+from foparq.errors import QuantityError
 from foparq.units import Quantity, parse_any_quantity, parse_quantity, parse_scale
 
 
@@ -14,6 +15,17 @@ def _quantity(symbol: str) -> BeforeValidator:
 
 
 Length = Annotated[Quantity, _quantity("m")]
+
+
+def _on_object(text: object) -> Quantity:
+    length = text if isinstance(text, Quantity) else parse_quantity(text, "m")
+    if length.at_scale:
+        raise QuantityError("quantity.on-sheet", value=str(text), example="3 mm")
+    return length
+
+
+#: what is measured on the object itself: a length on the sheet says nothing of it
+LengthOnObject = Annotated[Quantity, BeforeValidator(_on_object)]
 Angle = Annotated[Quantity, _quantity("rad")]
 Ratio = Annotated[Quantity, _quantity("1")]
 Area = Annotated[Quantity, _quantity("m2")]
