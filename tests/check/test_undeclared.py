@@ -12,6 +12,7 @@ from tests.evaluate.deliveries import drawn, one, spec
 from foparq.check.run import check_part
 from foparq.evaluate.quality import ElementStatus
 from foparq.model.drawing import Drawing, DrawingUnit, Reading, UnitOrigin
+from foparq.model.inputs import lines_of
 from foparq.model.items import Items, Role
 from foparq.model.plane import plane_of
 from foparq.profile.load import load_profile
@@ -105,3 +106,12 @@ def test_lines_of_no_extent_say_nothing_and_harm_nothing(points: int) -> None:
     checked = check_part(replace(grid, items=items), PROFILE, 50.0)
     assert not checked.log
     assert {pattern for outcome in checked.outcomes for pattern in outcome.undeclared} == {"PISO[[]1]"}
+
+
+def test_what_else_is_drawn_changes_nothing_of_closed_lines() -> None:
+    stones = [shapely.box(x, y, x + 1, y + 1).exterior for x in range(4) for y in range(3)]
+    # A thousand and more strokes in one place share all of each other, and nothing with the stones.
+    strokes = [shapely.LineString([(0.2, 0.2), (0.8, 0.8)])] * 1200
+    alone, together = lines_of(stones), lines_of([*strokes, *stones])
+    assert alone.adjoining(1e-4).all()
+    assert together.adjoining(1e-4).tolist() == [False] * len(strokes) + [True] * len(stones)

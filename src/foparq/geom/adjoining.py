@@ -53,16 +53,19 @@ def adjoining(lines: Polylines, geometry: Geometries, layer: Index, exempt: Flag
     of_layer = np.split(rings[np.argsort(number, kind="stable")], np.cumsum(count)[:-1])
     for n in crowded.tolist():
         beside[of_layer[n]] = _beside_each_other(geometry[of_layer[n]])
-    runs = shared_runs(lines, exempt, coincide=coincide)
-    runs = runs.take(beside[runs.one] & beside[runs.two] & (layer[runs.one] == layer[runs.two]))
+    # Of no other line is asked with whom it shares what: there may be thousands of them in one place.
+    asked = np.flatnonzero(beside)
+    rows = Polylines.of(geometry[asked])
+    runs = shared_runs(rows, np.zeros(len(rows), dtype=bool), coincide=coincide)
+    runs = runs.take(layer[asked[runs.one]] == layer[asked[runs.two]])
     shared = np.zeros(len(lines))
     for side in (runs.one, runs.two):
-        np.add.at(shared, side, runs.length)
+        np.add.at(shared, asked[side], runs.length)
     # Each vertex may be off by the rounding of coordinates: a quarter stays one at UTM size.
     shares = shared >= _SHARED * lines.length - lines.slack * np.diff(lines.offsets)
     for n in crowded.tolist():
-        asked = of_layer[n][beside[of_layer[n]]]
-        if len(asked) >= _FEWEST and 2 * np.count_nonzero(shares[asked]) >= len(asked):
+        alone = of_layer[n][beside[of_layer[n]]]
+        if len(alone) >= _FEWEST and 2 * np.count_nonzero(shares[alone]) >= len(alone):
             found[of_layer[n]] = True
     return found
 
