@@ -68,23 +68,37 @@ def chained(lines: Polylines, *, within: float) -> Chains:
 def mates(lines: Polylines, within: float) -> Index:
     """The one other end (2 n,) that each end meets, or ``NOBODY``; line k has the ends 2 k and 2 k + 1."""
     mate = np.full(2 * len(lines), NOBODY, dtype=np.intp)
-    line, vertex, forward = open_ends(lines, within)
+    line, _, forward = open_ends(lines, within)
     slot = 2 * line + ~forward
-    rows = thinned(lines, vertex, within)
-    turned = lines.plane[vertex[rows]] @ lines.turn
+    rows, i, j = meetings(lines, within)
     degree, partner = np.zeros(len(rows), dtype=np.intp), np.full(len(rows), NOBODY, dtype=np.intp)
-    for i, j in BoxTree(turned, turned).pairs(distance=within):
-        met = meet(lines, vertex[rows[i]], vertex[rows[j]], within)
-        for one, two in ((i[met], j[met]), (j[met], i[met])):
-            degree += np.bincount(one, minlength=len(rows))
-            partner[one] = two
+    for one, two in ((i, j), (j, i)):
+        degree += np.bincount(one, minlength=len(rows))
+        partner[one] = two
     single = np.flatnonzero(degree == 1)
     pair = single[degree[partner[single]] == 1]
     mate[slot[rows[pair]]] = slot[rows[partner[pair]]]
     return mate
 
 
-def meet(lines: Polylines, one: Index, two: Index, within: float) -> Flags:
+def meetings(lines: Polylines, within: float) -> tuple[Index, Index, Index]:
+    """Which ends meet each other: rows of :func:`open_ends` that are asked, and pairs of rows of these; made once."""
+    return lines.kept(("meetings", within), lambda: _meetings(lines, within))
+
+
+def _meetings(lines: Polylines, within: float) -> tuple[Index, Index, Index]:
+    _, vertex, _ = open_ends(lines, within)
+    rows = _thinned(lines, vertex, within)
+    turned = lines.plane[vertex[rows]] @ lines.turn
+    pairs = [np.zeros((2, 0), dtype=np.intp)]
+    for i, j in BoxTree(turned, turned).pairs(distance=within):
+        met = _meet(lines, vertex[rows[i]], vertex[rows[j]], within)
+        pairs.append(np.stack([i[met], j[met]]))
+    one, two = np.concatenate(pairs, axis=1)
+    return rows, one, two
+
+
+def _meet(lines: Polylines, one: Index, two: Index, within: float) -> Flags:
     """True (k,) where two vertices are near in the plane and in depth."""
     near: Flags = np.hypot(*(lines.plane[one] - lines.plane[two]).T) <= within
     near &= np.abs(lines.depth[one] - lines.depth[two]) <= within
@@ -99,7 +113,7 @@ def open_ends(lines: Polylines, within: float) -> tuple[Index, Index, Flags]:
     return line, vertex, np.tile([True, False], len(open_lines))
 
 
-def thinned(lines: Polylines, vertex: Index, within: float) -> Index:
+def _thinned(lines: Polylines, vertex: Index, within: float) -> Index:
     """Rows of ``vertex`` that are enough to tell whether two ends meet or more: a few of every small cell."""
     if not len(vertex):
         return np.zeros(0, dtype=np.intp)

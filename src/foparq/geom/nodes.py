@@ -6,8 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from foparq.columns import Flags, Index, Reals
-from foparq.geom.boxtree import BoxTree
-from foparq.geom.chains import Chains, meet, open_ends, thinned
+from foparq.geom.chains import Chains, meetings, open_ends
 from foparq.geom.ends import Aim
 from foparq.geom.loose import Least, LooseEnds
 from foparq.geom.polylines import Polylines
@@ -76,15 +75,9 @@ def short_nodes(lines: Polylines, aim: Aim, *, coincide: float, reach: float) ->
 
 def _members(lines: Polylines, within: float) -> _Members:
     line, vertex, forward = open_ends(lines, within)
-    few = thinned(lines, vertex, within)
+    few, one, two = meetings(lines, within)
     cell = np.full(len(vertex), -1, dtype=np.intp)
-    turned = lines.plane[vertex[few]] @ lines.turn
-    edges = [np.zeros((2, 0), dtype=np.intp)]
-    for i, j in BoxTree(turned, turned).pairs(distance=within):
-        met = meet(lines, vertex[few[i]], vertex[few[j]], within)
-        edges.append(np.stack([i[met], j[met]]))
-    joined = np.concatenate(edges, axis=1)
-    cell[few] = components(len(few), joined[0], joined[1])
+    cell[few] = components(len(few), one, two)
     count = np.bincount(cell[few])
     rows = few[count[cell[few]] > 1]
     rows = rows[np.argsort(cell[rows], kind="stable")]

@@ -9,6 +9,9 @@ import numpy as np
 from foparq.columns import Flags, Index, Texts
 from foparq.names import folded, of_kind
 
+#: layer of the points of dimensions, which CAD never plots, whatever a file states of it
+NEVER_PLOTTED = "Defpoints"
+
 _MAGIC = frozenset("*?[")
 
 

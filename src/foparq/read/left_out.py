@@ -7,12 +7,11 @@ import numpy as np
 
 from foparq.model.drawing import Skipped, SkippedReason
 from foparq.model.items import Items, Role
-from foparq.model.layers import matches
+from foparq.model.layers import NEVER_PLOTTED, matches
 from foparq.names import folded
 from foparq.profile.manifest import DrawingSection
 from foparq.read.raw import RawDrawing
 
-_DEFPOINTS = "defpoints"  #: CAD programs keep the points of dimensions there, and never plot it
 _HANDLES = 5  #: of a kind that are named
 _DRAWN = (Role.LINE.value, Role.AREA.value, Role.POINT.value)
 
@@ -30,7 +29,7 @@ def left_out(raw: RawDrawing, section: DrawingSection, *, hidden: bool) -> tuple
     items = raw.items
     drawn = np.isin(items.role, _DRAWN) & ~items.paper & (items.visible | hidden)
     layers = sorted(set(items.layer[drawn].tolist()))
-    unplotted = {folded(name) for name in raw.reading.unplotted} | {_DEFPOINTS}
+    unplotted = {folded(name) for name in raw.reading.unplotted} | {folded(NEVER_PLOTTED)}
     named = (*section.classes, *section.areas)
     why: dict[str, SkippedReason] = {}
     for layer in layers:

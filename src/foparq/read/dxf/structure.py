@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
+from foparq.model.layers import NEVER_PLOTTED
 from foparq.read.dxf.curves import Point
 from foparq.read.dxf.facts import LEAKS, MalformedError
 from foparq.read.dxf.text import readable
@@ -12,7 +13,6 @@ from foparq.read.dxf.text import readable
 Answer = TypeVar("Answer")
 
 _EXTERNAL = 4 | 8  # flags of a block definition: external reference, overlay
-_NEVER = "Defpoints"  # layer of the points of dimensions, which CAD never plots, whatever is stated of it
 _CONSTANT = 2  # flag of an attribute definition
 
 
@@ -57,7 +57,7 @@ def layer_table(document: Any) -> list[tuple[str, bool, bool]]:  # noqa: ANN401 
 
 def unplotted_layers(document: Any) -> set[str]:  # noqa: ANN401
     """Names of the layers that are not plotted, and of that which never is; damaged entries are left out."""
-    found = {_NEVER}
+    found = {NEVER_PLOTTED}
     for layer in asked(lambda: list(document.layers)):
         try:
             name, plots = layer.dxf.name, bool(layer.dxf.get("plot", 1))
