@@ -56,7 +56,8 @@ def write_findings_gpkg(record: AuditRecord, path: Path) -> None:
     with private_folder() as plain:
         made = plain / "findings.gpkg"
         try:
-            _write_database(record, made)
+            _write_database(record, plain / "layers.gpkg")
+            _copy_of_content(plain / "layers.gpkg", made)
         except (pyogrio.errors.DataSourceError, pyogrio.errors.DataLayerError, sqlite3.Error) as error:
             raise OSError(errno.EIO, str(error), str(path)) from error
         shutil.copyfile(made, path)
@@ -86,7 +87,15 @@ def _write_database(record: AuditRecord, path: Path) -> None:
         # The moment of the audit, not of writing: the same audit gives the same file.
         database.execute("UPDATE gpkg_contents SET last_change = ?", (_moment(record),))
         database.commit()
-        database.execute("VACUUM")
+
+
+def _copy_of_content(database: Path, path: Path) -> None:
+    """Write a database anew: the bytes depend on what it holds, not on how many transactions brought it there.
+
+    ``VACUUM`` keeps the change counter of the header (SQLite file format, 1.3.7); ``VACUUM INTO`` starts it again.
+    """
+    with closing(sqlite3.connect(database)) as source:
+        source.execute("VACUUM INTO ?", (str(path),))
 
 
 def _residual_layer(
