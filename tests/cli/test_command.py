@@ -10,37 +10,21 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import ezdxf
 import jsonschema
 import openpyxl
 import pytest
+from tests.cli.conftest import Command
 
-from foparq.cli.main import COMMANDS, run
+from foparq.cli.main import COMMANDS
 from foparq.profile.load import load_manifest
 from foparq.report.formats import WRITTEN
 from foparq.resources import shipped
 
 FIXTURES = Path(__file__).resolve().parents[2] / "fixtures"
 FILES = {form.file for form in WRITTEN}
-Command = Callable[..., tuple[int, str, str]]
-
-
-@pytest.fixture
-def foparq(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Command:
-    """Run the command in this process: exit code, standard output, standard error."""
-    for name in ("LC_ALL", "LC_MESSAGES", "LANG", "LANGUAGE"):
-        monkeypatch.delenv(name, raising=False)
-    monkeypatch.setenv("LANGUAGE", "en")
-
-    def call(*arguments: object) -> tuple[int, str, str]:
-        code = run([str(argument) for argument in arguments])
-        said = capsys.readouterr()
-        return code, said.out, said.err
-
-    return call
 
 
 def write_dxf(path: Path, *lines: tuple[tuple[float, float], tuple[float, float]], unit: int = 6) -> Path:

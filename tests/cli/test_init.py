@@ -3,34 +3,18 @@
 
 import re
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import ezdxf
 import openpyxl
 import pytest
+from tests.cli.conftest import Command
 from tests.tools import office_files
 from tests.tools.offices import office
 
 from foparq.cli.init_names import class_like, facade_like
-from foparq.cli.main import run
 from foparq.profile.load import load_manifest
 from foparq.read.table.revisions import is_aside, revision_of
-
-Command = Callable[..., tuple[int, str, str]]
-
-
-@pytest.fixture
-def foparq(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Command:
-    """Run the command in this process: exit code, standard output, standard error."""
-    monkeypatch.delenv("COLUMNS", raising=False)
-
-    def call(*arguments: object) -> tuple[int, str, str]:
-        code = run([str(argument) for argument in arguments])
-        said = capsys.readouterr()
-        return code, said.out, said.err
-
-    return call
 
 
 def draw(path: Path, *layers: str) -> Path:

@@ -3,34 +3,18 @@
 
 import json
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import ezdxf
 import pytest
+from tests.cli.conftest import Command
 
 from foparq.check.catalogue import cards
-from foparq.cli.main import COMMANDS, run
+from foparq.cli.main import COMMANDS
 from foparq.profile.find import shipped_profiles
 from foparq.report.formats import SHOWN
 
-Command = Callable[..., tuple[int, str, str]]
 MANIFEST = '[delivery]\nscale = "1:50"\ntitle = "Casa"\nlanguage = "pt-BR"\n\n[[drawing]]\npath = "a.dxf"\nunit = "m"\n'
-
-
-@pytest.fixture
-def foparq(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Command:
-    """Run the command in this process under an English locale: exit code, standard output, standard error."""
-    for name in ("LC_ALL", "LC_MESSAGES", "LANG", "LANGUAGE", "COLUMNS"):
-        monkeypatch.delenv(name, raising=False)
-    monkeypatch.setenv("LANGUAGE", "en")
-
-    def call(*arguments: object) -> tuple[int, str, str]:
-        code = run([str(argument) for argument in arguments])
-        said = capsys.readouterr()
-        return code, said.out, said.err
-
-    return call
 
 
 def deliver(folder: Path, manifest: str = MANIFEST) -> Path:

@@ -4,7 +4,7 @@
 import hashlib
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ from typing import Any
 import ezdxf
 import jsonschema
 import pytest
+from tests.cli.conftest import Command
 
 from foparq.cli.main import run
 from foparq.evaluate.late_doubt import without_reports
@@ -19,8 +20,6 @@ from foparq.evaluate.quality import QualityReport, Verdict, because
 from foparq.profile.load import load_profile
 from foparq.report.words import Words
 from foparq.resources import shipped
-
-Command = Callable[..., tuple[int, str, str]]
 
 SHIPPED = load_profile("et-doc-foparq-a")
 BARE = (
@@ -33,15 +32,9 @@ WAIVED = '[[element]]\nid = "Q1-X"\nkind = "absolute"\nrequired = false\napplica
 
 
 @pytest.fixture
-def foparq(capsys: pytest.CaptureFixture[str]) -> Command:
-    """Run the command in this process, in English: exit code, standard output, standard error."""
-
-    def call(*arguments: object) -> tuple[int, str, str]:
-        code = run([*(str(argument) for argument in arguments), "--lang", "en"])
-        said = capsys.readouterr()
-        return code, said.out, said.err
-
-    return call
+def foparq(foparq: Command) -> Command:
+    """Run the command in English, whatever the manifest says."""
+    return lambda *arguments: foparq(*arguments, "--lang", "en")
 
 
 def deliver(folder: Path, profile: str | None, files: Mapping[str, str], scale: str | None = "1:50") -> Path:
