@@ -107,7 +107,7 @@ def chained(lines: list[NDArray[np.float64]], coincide: float) -> tuple[Drawing,
     return drawing, free
 
 
-class _Way(NamedTuple):
+class Followed(NamedTuple):
     # One end of a chain: what is known before direction is asked.
     chain: int
     last: bool
@@ -120,7 +120,7 @@ def classify_all(lines: list[NDArray[np.float64]], *, coincide: float, reach: fl
     """Every end of every open line, first vertex before last."""
     drawing, free = chained(lines, coincide)
     deep = Drawing(lines).lines
-    ways = {end: _way(drawing, chain, deep, end, coincide, reach, aim) for end, chain in free.items()}
+    ways = {end: follow(drawing, chain, deep, end, coincide, reach, aim) for end, chain in free.items()}
     found = []
     for n, line in enumerate(deep):
         if np.linalg.norm(line[0] - line[-1]) <= coincide + EPS:
@@ -144,21 +144,21 @@ def classify_one(
     drawing, free = followed
     deep = [lines[end[0]] if n == end[0] else np.zeros((0, 2)) for n in range(end[0] + 1)]
     deep = [np.column_stack([line, np.zeros(len(line))]) if line.shape[1] == 2 else line for line in deep]
-    way = _way(drawing, free[end], deep, end, coincide, reach, ANYWHERE)
+    way = follow(drawing, free[end], deep, end, coincide, reach, ANYWHERE)
     if way.settled is not None:
         return way.settled._replace(line=end[0], last=end[1])
     return _missed(drawing, end, {end: way}, coincide, reach, ANYWHERE)
 
 
-def _way(
+def follow(
     drawing: Drawing, chain: int, deep: list[NDArray[np.float64]], end: tuple[int, bool], coincide: float,
     reach: float, aim: Aim,
-) -> _Way:  # fmt: skip
+) -> Followed:  # fmt: skip
     place = deep[end[0]][-1 if end[1] else 0]
     last = bool(np.any(drawing.lines[chain][0] != place))
     way = drawing.walked(chain, last=last)
     around = drawing.others(chain, last=last, reach=reach, coincide=coincide)
-    return _Way(chain, last, way, around, _settled(drawing, chain, last, way, around, coincide, reach, aim))
+    return Followed(chain, last, way, around, _settled(drawing, chain, last, way, around, coincide, reach, aim))
 
 
 def _settled(
@@ -184,22 +184,22 @@ def _settled(
 
 
 def _missed(
-    drawing: Drawing, end: tuple[int, bool], ways: dict[tuple[int, bool], _Way], coincide: float, reach: float,
+    drawing: Drawing, end: tuple[int, bool], ways: dict[tuple[int, bool], Followed], coincide: float, reach: float,
     aim: Aim,
 ) -> End:  # fmt: skip
     """Short of something, beside something, or free."""
     one = ways[end]
     place, near = one.way[0], drawing.flat[one.around]
     point = shapely.Point(place[:2])
-    share = _share(near, point)
-    drop = np.abs(_depth(drawing, one.around, share) - place[2])
+    share = share_of(near, point)
+    drop = np.abs(depth_at(drawing, one.around, share) - place[2])
     missed = np.hypot(shapely.distance(near, point), drop)
     candidates: list[tuple[float, int]] = []
     for n in np.flatnonzero(missed <= reach + EPS):
         start, stop = shapely.get_coordinates(near[n])
         target = start + (stop - start) * np.nan_to_num(share[n])
         if any(
-            _ahead(u, place[:2], target, start, stop, coincide, reach, aim) for u in _aims(one.way, coincide, reach)
+            lies_ahead(u, place[:2], target, start, stop, coincide, reach, aim) for u in aims(one.way, coincide, reach)
         ):
             candidates.append((float(missed[n]), int(drawing.piece[one.around[n]])))
     for other, two in ways.items():
@@ -212,8 +212,8 @@ def _missed(
         step = two.way[0] - place
         apart = float(np.hypot(np.hypot(*step[:2]), step[2]))
         if apart <= reach + EPS and any(
-            _faces(u, v, step[:2]) or _closes(u, v, step[:2], reach)
-            for u in _aims(one.way, coincide, reach) for v in _aims(two.way, coincide, reach)
+            _faces(u, v, step[:2]) or closes(u, v, step[:2], reach)
+            for u in aims(one.way, coincide, reach) for v in aims(two.way, coincide, reach)
         ):  # fmt: skip
             candidates.append((apart, other[0]))
     for kind, rows in (
@@ -226,7 +226,7 @@ def _missed(
     return End(*end, "free", reach, frozenset())
 
 
-def _aims(way: NDArray[np.float64], coincide: float, reach: float) -> list[NDArray[np.float64]]:
+def aims(way: NDArray[np.float64], coincide: float, reach: float) -> list[NDArray[np.float64]]:
     """Directions of the last segment and of the chord, as unit vectors."""
     flat = way[:, :2]
     far = np.flatnonzero(np.hypot(*(flat - flat[0]).T) > coincide + EPS)
@@ -236,11 +236,11 @@ def _aims(way: NDArray[np.float64], coincide: float, reach: float) -> list[NDArr
     return [vector / (np.hypot(*vector) or 1.0) for vector in (last, chosen)]
 
 
-def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+def cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
     return float(a[0] * b[1] - a[1] * b[0])
 
 
-def _ahead(
+def lies_ahead(
     u: NDArray[np.float64], place: NDArray[np.float64], target: NDArray[np.float64], start: NDArray[np.float64],
     stop: NDArray[np.float64], coincide: float, reach: float, aim: Aim,
 ) -> bool:  # fmt: skip
@@ -249,12 +249,12 @@ def _ahead(
     length = float(np.hypot(*along))
     if np.hypot(*step) <= EPS:
         return True
-    turned = length > EPS and abs(_cross(u, along)) >= np.sin(aim.alongside) * length - EPS
+    turned = length > EPS and abs(cross(u, along)) >= np.sin(aim.alongside) * length - EPS
     cone = float(step @ u) >= np.cos(aim.ahead) * np.hypot(*step) - EPS
     on, meets = np.inf, False
-    if abs(_cross(u, along)) > TURN * length:
-        on = _cross(start - place, along) / _cross(u, along)
-        at = _cross(start - place, u) / _cross(u, along) * length
+    if abs(cross(u, along)) > TURN * length:
+        on = cross(start - place, along) / cross(u, along)
+        at = cross(start - place, u) / cross(u, along) * length
         meets = on >= 0 and -coincide - EPS <= at <= length + coincide + EPS
     return bool(turned and (cone or meets)) or bool(meets and on <= reach + EPS)
 
@@ -263,10 +263,10 @@ def _faces(u: NDArray[np.float64], v: NDArray[np.float64], step: NDArray[np.floa
     return bool(u @ v < -TURN and step @ u >= -EPS and -step @ v >= -EPS)
 
 
-def _closes(u: NDArray[np.float64], v: NDArray[np.float64], step: NDArray[np.float64], reach: float) -> bool:
-    if abs(_cross(u, v)) <= TURN:
+def closes(u: NDArray[np.float64], v: NDArray[np.float64], step: NDArray[np.float64], reach: float) -> bool:
+    if abs(cross(u, v)) <= TURN:
         return False
-    on, back = _cross(step, v) / _cross(u, v), _cross(step, u) / _cross(u, v)
+    on, back = cross(step, v) / cross(u, v), cross(step, u) / cross(u, v)
     return min(on, back) >= -EPS and max(on, back) <= reach + EPS
 
 
@@ -286,16 +286,16 @@ def _reached(drawing: Drawing, place: NDArray[np.float64], coincide: float) -> l
 
 def _met(drawing: Drawing, rows: NDArray[np.intp], place: shapely.Point, depth: float, coincide: float) -> bool:
     near = drawing.flat[rows]
-    drop = np.abs(_depth(drawing, rows, _share(near, place)) - depth)
+    drop = np.abs(depth_at(drawing, rows, share_of(near, place)) - depth)
     return bool(np.any((shapely.distance(near, place) <= coincide + EPS) & (drop <= coincide + EPS)))
 
 
-def _share(lines: Any, place: shapely.Point) -> Any:
+def share_of(lines: Any, place: shapely.Point) -> Any:
     with np.errstate(invalid="ignore"):  # a segment without length has no share; some versions of GEOS warn of it
         return shapely.line_locate_point(lines, place, normalized=True)
 
 
-def _depth(drawing: Drawing, rows: NDArray[np.intp], share: NDArray[np.float64]) -> NDArray[np.float64]:
+def depth_at(drawing: Drawing, rows: NDArray[np.intp], share: NDArray[np.float64]) -> NDArray[np.float64]:
     share = np.nan_to_num(share)
     return drawing.z[0, rows] * (1 - share) + drawing.z[1, rows] * share
 
@@ -324,9 +324,9 @@ def _crossing(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.floa
     """Where two segments cross or touch; of those that are nearly parallel it is not well placed."""
     one, two = a[1] - a[0], b[1] - b[0]
     size = np.hypot(*one), np.hypot(*two)
-    if abs(_cross(one, two)) <= 1e-3 * size[0] * size[1]:
+    if abs(cross(one, two)) <= 1e-3 * size[0] * size[1]:
         return None
-    on, back = _cross(b[0] - a[0], two) / _cross(one, two), _cross(b[0] - a[0], one) / _cross(one, two)
+    on, back = cross(b[0] - a[0], two) / cross(one, two), cross(b[0] - a[0], one) / cross(one, two)
     touched = all(-EPS <= share * length <= length + EPS for share, length in zip((on, back), size, strict=True))
     return a[0] + one * min(max(on, 0.0), 1.0) if touched else None
 
@@ -340,7 +340,7 @@ def _meeting(
     for candidates in ([shapely.Point(crossing)] if crossing is not None else [], ends):
         places = []
         for place in candidates:
-            on_a, on_b = (_share(line, place) for line in (a, b))
+            on_a, on_b = (share_of(line, place) for line in (a, b))
             apart = shapely.distance(
                 shapely.line_interpolate_point(a, on_a, normalized=True),
                 shapely.line_interpolate_point(b, on_b, normalized=True),

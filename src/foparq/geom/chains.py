@@ -70,7 +70,7 @@ def mates(lines: Polylines, within: float) -> Index:
     mate = np.full(2 * len(lines), NOBODY, dtype=np.intp)
     line, _, forward = open_ends(lines, within)
     slot = 2 * line + ~forward
-    rows, i, j = meetings(lines, within)
+    rows, i, j, _ = meetings(lines, within)
     degree, partner = np.zeros(len(rows), dtype=np.intp), np.full(len(rows), NOBODY, dtype=np.intp)
     for one, two in ((i, j), (j, i)):
         degree += np.bincount(one, minlength=len(rows))
@@ -81,21 +81,30 @@ def mates(lines: Polylines, within: float) -> Index:
     return mate
 
 
-def meetings(lines: Polylines, within: float) -> tuple[Index, Index, Index]:
-    """Which ends meet each other: rows of :func:`open_ends` that are asked, and pairs of rows of these; made once."""
+class Meetings(NamedTuple):
+    """Which of e open ends meet each other."""
+
+    rows: Index  #: (r,) ends that are asked: a few of every small cell
+    one: Index  #: (p,) of pairs that meet, rows of ``rows``
+    two: Index  #: (p,)
+    stands_for: Index  #: (e,) for each end, the row of ``rows`` that lies in its cell, and so meets it
+
+
+def meetings(lines: Polylines, within: float) -> Meetings:
+    """Which ends meet each other, of those of :func:`open_ends`; made once."""
     return lines.kept(("meetings", within), lambda: _meetings(lines, within))
 
 
-def _meetings(lines: Polylines, within: float) -> tuple[Index, Index, Index]:
+def _meetings(lines: Polylines, within: float) -> Meetings:
     _, vertex, _ = open_ends(lines, within)
-    rows = _thinned(lines, vertex, within)
+    rows, stands_for = _thinned(lines, vertex, within)
     turned = lines.plane[vertex[rows]] @ lines.turn
     pairs = [np.zeros((2, 0), dtype=np.intp)]
     for i, j in BoxTree(turned, turned).pairs(distance=within):
         met = _meet(lines, vertex[rows[i]], vertex[rows[j]], within)
         pairs.append(np.stack([i[met], j[met]]))
     one, two = np.concatenate(pairs, axis=1)
-    return rows, one, two
+    return Meetings(rows, one, two, stands_for)
 
 
 def _meet(lines: Polylines, one: Index, two: Index, within: float) -> Flags:
@@ -113,16 +122,18 @@ def open_ends(lines: Polylines, within: float) -> tuple[Index, Index, Flags]:
     return line, vertex, np.tile([True, False], len(open_lines))
 
 
-def _thinned(lines: Polylines, vertex: Index, within: float) -> Index:
-    """Rows of ``vertex`` that are enough to tell whether two ends meet or more: a few of every small cell."""
+def _thinned(lines: Polylines, vertex: Index, within: float) -> tuple[Index, Index]:
+    """Rows of ``vertex`` that are enough to tell whether two ends meet or more; and which of them is in whose cell."""
     if not len(vertex):
-        return np.zeros(0, dtype=np.intp)
+        return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
     cell = np.floor(np.column_stack([lines.plane[vertex], lines.depth[vertex]]) / (CELL * within))
     order = np.lexsort(cell.T)
     new = np.concatenate([[True], np.any(cell[order[1:]] != cell[order[:-1]], axis=1)])
-    begin = np.flatnonzero(new)
-    rank = np.arange(len(order)) - begin[np.cumsum(new) - 1]
-    return np.sort(order[rank < _CROWD])
+    begin = np.flatnonzero(new)[np.cumsum(new) - 1]
+    rows = np.sort(order[np.arange(len(order)) - begin < _CROWD])
+    stands_for = np.empty(len(order), dtype=np.intp)
+    stands_for[order] = np.searchsorted(rows, order[begin])
+    return rows, stands_for
 
 
 def in_chains(mate: Index) -> tuple[Index, Index, Flags]:

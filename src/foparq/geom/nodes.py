@@ -75,11 +75,9 @@ def short_nodes(lines: Polylines, aim: Aim, *, coincide: float, reach: float) ->
 
 def _members(lines: Polylines, within: float) -> _Members:
     line, vertex, forward = open_ends(lines, within)
-    few, one, two = meetings(lines, within)
-    cell = np.full(len(vertex), -1, dtype=np.intp)
-    cell[few] = components(len(few), one, two)
-    count = np.bincount(cell[few])
-    rows = few[count[cell[few]] > 1]
+    met = meetings(lines, within)
+    cell = components(len(met.rows), met.one, met.two)[met.stands_for]
+    rows = np.flatnonzero(np.bincount(cell)[cell] > 1) if len(cell) else cell
     rows = rows[np.argsort(cell[rows], kind="stable")]
     node = np.unique(cell[rows], return_inverse=True)[1].reshape(-1)
     return _Members(line[rows], vertex[rows], forward[rows], node)
