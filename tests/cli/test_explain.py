@@ -32,7 +32,7 @@ def explain(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch)
 @pytest.mark.parametrize("card", cards(), ids=lambda card: card.code)
 def test_a_manual_is_for_people(explain: Callable[..., str], card: Card, language: str) -> None:
     out = explain(card.code, "--lang", language)
-    for mark in ("``", "**", "----", "O(n", " : ", "Hits", "Parameters", "Returns", "Parâmetros", "Retorna"):
+    for mark in ("``", "**", "----", "; - ", "O(n", " : ", "Hits", "Parameters", "Returns", "Parâmetros", "Retorna"):
         assert mark not in out, mark
     lines = out.splitlines()
     for name, _ in card.tolerances:

@@ -61,7 +61,8 @@ def plain(text: str) -> str:
 
 
 def _paragraphs(text: str) -> tuple[str, ...]:
-    return tuple(plain(" ".join(part.split())) for part in re.split(r"\n\s*\n", text) if part.strip())
+    """Text parted at empty lines and before each entry of a list."""
+    return tuple(plain(" ".join(part.split())) for part in re.split(r"\n\s*\n|\n(?=- )", text) if part.strip())
 
 
 def _parameters(body: str, tolerances: set[str]) -> list[Section]:
