@@ -2,6 +2,7 @@
 """Each limit met exactly, with numbers that binary arithmetic holds: ``<`` told from ``<=``."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -28,6 +29,8 @@ from foparq.evaluate.elements import normality as normality_module
 from foparq.evaluate.elements import trend as trend_module
 from foparq.evaluate.quality import Element, ElementStatus
 from foparq.model.tables import Checkpoints
+from foparq.report.sentences import reason_sentence
+from foparq.report.words import Words
 from foparq.units import Quantity
 
 PASS, FAIL, UNDECIDED = ElementStatus.PASS, ElementStatus.FAIL, ElementStatus.UNDECIDED
@@ -299,3 +302,28 @@ def test_the_error_in_space_leaves_out_points_without_all_three_axes() -> None:
     element = judge(spec("absolute"), delivery=surveyed(table)).elements[0]
     assert parameter(element, "rmse-xyz") == pytest.approx(math.sqrt(3) * 0.5)
     assert parameter(element, "n") == 8.0
+
+
+@pytest.mark.parametrize(
+    ("least", "most", "listed_", "message", "range_"),
+    [
+        (16, 16, 16, "omission.none", None),
+        (13, 13, 16, "omission.pass", None),
+        (12, 14, 16, "omission.pass-between", (2, 4)),
+        (6, 8, 16, "omission.fail-between", (8, 10)),
+        (8, 8, 16, "omission.fail", None),
+    ],
+)
+def test_what_may_be_drawn_is_never_said_to_be_missing(
+    least: int, most: int, listed_: int, message: str, range_: tuple[int, int] | None
+) -> None:
+    delivery = drawn(BOUND, features=listed(("window", "N", listed_)))
+    counts = counts_of(least, most=most, pieces=most)
+    element = one(spec("omission", limit=Quantity(25, "%")), delivery=delivery, counts=counts)
+    assert messages(element)[0] == message
+    if range_ is not None:
+        fields = dict(element.why[0].fields)
+        assert (fields["least"], fields["missing"]) == range_
+        for language in ("en", "pt-BR"):
+            said = reason_sentence(Words(language), element.why[0])
+            assert re.search(rf"\b{range_[0]} (to|a) {range_[1]}\b", said)

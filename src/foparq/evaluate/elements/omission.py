@@ -85,7 +85,7 @@ def _judge(spec: OmissionSpec, evidence: Evidence, every: tuple[Balance, ...], l
     name = spec.id
     known = [row for row in every if row.gap is Incomparable.NONE]
     required, total = sum(row.required for row in known), sum(row.required for row in every)
-    missing, net = sum(row.missing for row in known), sum(row.missing_net for row in known)
+    missing = sum(row.missing for row in known)
     gaps = gap_reasons(tuple(row for row in every if row.required), name, (Incomparable.UNBOUND, Incomparable.FACADE))
     if evidence.counts is not None:
         gaps = (*gaps, *elsewhere(evidence.counts, name))
@@ -97,25 +97,39 @@ def _judge(spec: OmissionSpec, evidence: Evidence, every: tuple[Balance, ...], l
         "element": name, "missing": missing, "required": required, "value": (missing / required, "1"),
         "limit": (limit, "1"),
     }  # fmt: skip
-    remarks = []
-    if net < missing:
-        remarks.append(
-            because("omission.net", element=name, missing=net, accepted=missing - net, value=(net / required, "1"))
-        )
-    if unproven := sum(row.unproven for row in known):
-        remarks.append(because("omission.unproven", element=name, n=unproven))
+    remarks = _accepted(known, name, required, missing)
     hidden = (*unseen(evidence, name), *uncounted(evidence, name))
     if missing / required > limit and hidden:
         return judged(ElementStatus.UNDECIDED, because("omission.hidden", **fields), *hidden, *gaps, *remarks)
-    if missing / total > limit:
-        certain = sum(row.missing_least for row in known if not row.hidden)
-        failed = certain / total > limit
-        status = ElementStatus.FAIL if failed else ElementStatus.UNDECIDED
-        why = (because("omission.fail", **fields),) if failed else _open(known, evidence, fields)
-        return judged(status, *why, *gaps, *remarks)
-    if gaps:
-        return judged(ElementStatus.UNDECIDED, *gaps, *remarks)
-    return judged(ElementStatus.PASS, because("omission.pass", **fields), *remarks)
+    least = sum(row.missing_least for row in known if not row.hidden)
+    fields["least"] = least
+    if missing / total <= limit and not gaps:
+        return judged(ElementStatus.PASS, _within(fields), *remarks)
+    if least / total > limit:
+        found = because("omission.fail-between" if least < missing else "omission.fail", **fields)
+        return judged(ElementStatus.FAIL, found, *gaps, *remarks)
+    uncertain = _open(known, evidence, fields) if missing / total > limit else ()
+    return judged(ElementStatus.UNDECIDED, *uncertain, *gaps, *remarks)
+
+
+def _accepted(known: list[Balance], name: str, required: int, missing: int) -> tuple[Reason, ...]:
+    """What is said of omissions that somebody accepted."""
+    net, unproven = sum(row.missing_net for row in known), sum(row.unproven for row in known)
+    told = []
+    if net < missing:
+        told.append(
+            because("omission.net", element=name, missing=net, accepted=missing - net, value=(net / required, "1"))
+        )
+    if unproven:
+        told.append(because("omission.unproven", element=name, n=unproven))
+    return tuple(told)
+
+
+def _within(fields: dict[str, object]) -> Reason:
+    """That the rate is within the limit; what may be drawn is not said to be missing."""
+    if not fields["missing"]:
+        return because("omission.none", **fields)
+    return because("omission.pass" if fields["least"] == fields["missing"] else "omission.pass-between", **fields)
 
 
 def _open(known: list[Balance], evidence: Evidence, fields: dict[str, object]) -> tuple[Reason, ...]:
@@ -123,8 +137,7 @@ def _open(known: list[Balance], evidence: Evidence, fields: dict[str, object]) -
     short = [row for row in known if row.missing]
     why = []
     if several := [row for row in short if row.missing_least < row.missing]:
-        least = sum(row.missing_least for row in known)
-        told = {"least": least, **fields}
+        told = {**fields, "least": sum(row.missing_least for row in known)}
         why.append(interval("omission.interval", str(fields["element"]), evidence, several, told))
     if layers := sorted({layer for row in short for layer in row.hidden}):
         why.append(because("omission.hidden-layers", layers=some(layers), n=len(layers), **fields))
