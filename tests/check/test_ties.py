@@ -95,8 +95,22 @@ def test_a_tolerance_holds_and_printed_digits_are_added() -> None:
         assert lies(checkpoints(in_space(CORNERS[:4] - [0, beside])), drawing()) == [found] * 4
     lower = checkpoints(in_space(CORNERS[:4] - [0, 0.0015]))
     assert lies(lower, drawing()) == [Lies.ABSENT] * 4
-    coarse = checkpoints(lower.delivered, printed=np.array([0.0006, 0.0, 0.0]))
-    assert lies(coarse, drawing()) == [Lies.VERTEX] * 4
+    for axis, found in ((2, Lies.VERTEX), (0, Lies.ABSENT), (1, Lies.ABSENT)):
+        # Digits that are missing along the facade or its depth hide nothing of the height.
+        coarse = checkpoints(lower.delivered, printed=0.0006 * np.eye(3)[axis])
+        assert lies(coarse, drawing()) == [found] * 4
+
+
+def test_digits_missing_of_one_axis_hide_no_shift_of_another() -> None:
+    moved = in_space(CORNERS + [0.0, 0.04])
+    for axis, found in ((0, False), (1, False), (2, True)):
+        told = lies(checkpoints(moved, printed=0.05 * np.eye(3)[axis]), drawing())
+        assert (Lies.VERTEX in told) is found
+
+
+def test_the_depth_of_a_flat_drawing_hides_no_shift() -> None:
+    table = np.column_stack([CORNERS + [0.0, 0.04], np.zeros(8)])
+    assert Lies.VERTEX not in lies(checkpoints(table, printed=np.array([0.0, 0.0, 0.5])), drawing(plane="xy"))
 
 
 def test_depth_counts_in_space_and_not_on_a_flat_sheet() -> None:

@@ -54,7 +54,7 @@ def test_coordinates_of_a_vertex_were_not_rounded_by_more_than_they_differ(off: 
         delivery=Delivery(title="t", sources=(), checkpoints=points), outcomes=(), counts=None, scale=50.0,
         ties=Ties(points=ties, drawings=1),
     )  # fmt: skip
-    assert resolution_of(points, evidence, 1) == pytest.approx(0.00005 + known, abs=1e-9)
+    assert resolution_of(points, evidence, 1, np.arange(len(points.id))) == pytest.approx(0.00005 + known, abs=1e-9)
 
 
 def test_the_depth_of_a_flat_drawing_proves_no_digits() -> None:
@@ -66,7 +66,9 @@ def test_the_depth_of_a_flat_drawing_proves_no_digits() -> None:
         delivery=Delivery(title="t", sources=(), checkpoints=points), outcomes=(), counts=None, scale=50.0,
         ties=Ties(points=ties, drawings=1),
     )  # fmt: skip
-    assert [resolution_of(points, evidence, axis) for axis in range(3)] == pytest.approx([0.1, 0.1, 0.6])
+    assert [resolution_of(points, evidence, axis, np.arange(len(points.id))) for axis in range(3)] == pytest.approx(
+        [0.1, 0.1, 0.6]
+    )
 
 
 def test_a_distance_may_end_at_an_insert_that_bears_a_name() -> None:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from foparq.accuracy.bounds import rounding_bound
 from foparq.accuracy.differences import differences
 from foparq.accuracy.too_good import too_good
 from foparq.columns import Flags, Index, Reals, Texts
@@ -125,17 +126,22 @@ def too_small(found: Reals, survey_sd: float | None, resolution: float, name: st
     return because("evidence.too-good" if gross else "evidence.good", element=name, **fields), gross
 
 
-def resolution_of(points: Checkpoints, evidence: Evidence, axis: int) -> float:
-    """Half the last printed digits of surveyed plus delivered coordinates of one axis, metres.
+def resolution_of(points: Checkpoints, evidence: Evidence, axis: int, rows: Index) -> float:
+    """Half the last printed digits of surveyed plus delivered coordinates of one axis, metres: the root mean square.
 
     What is printed of delivered coordinates that are those of vertices was not rounded by more than it differs from
-    them, however few digits round numbers show.
+    them, however few digits round numbers show: each point by itself.
+
+    Parameters
+    ----------
+    rows : (m,) int
+        Points whose differences count.
     """
     printed, resolution = float(points.printed[axis]), float(points.resolution[axis])
     ties = evidence.ties.points if evidence.ties else None
     if ties is None or not len(ties.corner) or ties.unchecked[axis]:
         return resolution
-    return resolution - max(0.0, printed - float(ties.corner.max()))
+    return rounding_bound(resolution - np.maximum(0.0, printed - ties.corner[rows])) if len(rows) else resolution
 
 
 def unchecked(evidence: Evidence, axis: int, name: str) -> tuple[Reason, ...]:

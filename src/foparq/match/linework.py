@@ -8,10 +8,11 @@ from typing import NamedTuple, Self
 import numpy as np
 import shapely
 
-from foparq.columns import Coordinates, Geometries, Index, Reals
+from foparq.columns import Coordinates, Flags, Geometries, Index, Reals
 
 NOTHING = -1  #: in ``Footing.line``: no line is there
 _AT_ONCE = 1_000_000  #: vertices that are looked at together
+_LEAST = 1e-12  #: metres; nothing is nearer than that
 _DEEP = 0.1  #: share of the vertices with a depth from which a drawing stands in space
 
 
@@ -21,6 +22,7 @@ class Footing(NamedTuple):
     line: Index  #: (n,) row of the nearest line, or ``NOTHING``
     distance: Reals  #: (n,) to it; to the nearest line in the plane where there is ``NOTHING``; infinite without lines
     vertex: Reals  #: (n,) to the nearest vertex of that line; infinite where there is ``NOTHING``
+    at_vertex: Flags  #: (n,) that vertex is as near as a line must be
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +50,9 @@ def stands_in_space(lines: Geometries) -> bool:
     return bool(np.count_nonzero(depth) > _DEEP * len(depth))
 
 
-def footing(points: Coordinates, work: Linework, *, within: Reals, deep: bool) -> Footing:
+def footing(
+    points: Coordinates, work: Linework, *, within: Reals, deep: bool, rounding: Coordinates | None = None
+) -> Footing:
     """Linework on which points lie.
 
     Parameters
@@ -61,6 +65,8 @@ def footing(points: Coordinates, work: Linework, *, within: Reals, deep: bool) -
         Distance up to which a point lies on a line.
     deep : bool
         Whether depths are compared.
+    rounding : (3,) float, optional
+        By how much the coordinates may have been rounded, in addition: along that axis, and no other.
 
     Returns
     -------
@@ -69,10 +75,13 @@ def footing(points: Coordinates, work: Linework, *, within: Reals, deep: bool) -
 
     Notes
     -----
-    O(n log m + vertices of the lines near a point).
+    O(n log m + vertices of the lines near a point). What rounding may hide is a box; a point lies on a line that meets
+    the ellipsoid around that box and the circle within which it lies anyway, and nearness is measured by it.
     """
-    n = len(points)
-    found = Footing(np.full(n, NOTHING, dtype=np.intp), np.full(n, np.inf), np.full(n, np.inf))
+    n, axes = len(points), 3 if deep else 2
+    found = Footing(np.full(n, NOTHING, dtype=np.intp), np.full(n, np.inf), np.full(n, np.inf), np.zeros(n, dtype=bool))
+    half = np.zeros(axes) if rounding is None else rounding[:axes]
+    reach = within[:, None] + np.sqrt(axes) * half
     known = np.flatnonzero(np.isfinite(points).all(axis=1))
     if not len(work.lines) or not len(known):
         return found
@@ -80,10 +89,18 @@ def footing(points: Coordinates, work: Linework, *, within: Reals, deep: bool) -
     spots = shapely.points(points[known, :2])
     to_nearest, nearest = tree.query_nearest(spots, all_matches=False)
     found.distance[known[to_nearest]] = shapely.distance(spots[to_nearest], tree.geometries[nearest])
-    near, line = tree.query(spots, predicate="dwithin", distance=within[known])
+    near, line = tree.query(spots, predicate="dwithin", distance=within[known] + float(np.linalg.norm(half)))
     row = known[near]
-    for some in _parcels(shapely.get_num_coordinates(lines[line])):
-        _stand(points, lines, row[some], line[some], found, within=within, deep=deep)
+    parcels = _parcels(shapely.get_num_coordinates(lines[line]))
+    if not parcels:
+        return found
+    gaps = [_gaps(points[row[some]], lines[line[some]], reach[row[some]]) for some in parcels]
+    to_line, to_vertex, foot, vertex = (np.concatenate(column) for column in zip(*gaps, strict=True))
+    order = np.lexsort((line, to_line, row))
+    best = order[np.unique(row[order], return_index=True)[1]]
+    best = best[to_line[best] <= 1.0]
+    found.line[row[best]], found.distance[row[best]] = line[best], foot[best]
+    found.vertex[row[best]], found.at_vertex[row[best]] = vertex[best], to_vertex[best] <= 1.0
     return found
 
 
@@ -94,25 +111,36 @@ def _parcels(sizes: Index) -> list[slice]:
     return [slice(a, b) for a, b in pairwise(edges) if a < b]
 
 
-def _stand(
-    points: Coordinates, lines: Geometries, row: Index, line: Index, found: Footing, *, within: Reals, deep: bool
-) -> None:
-    """Enter the nearest of some pairs of point and line."""
-    corner, pair = shapely.get_coordinates(lines[line], include_z=True, return_index=True)
-    corner = np.nan_to_num(corner) if deep else corner[:, :2]
-    target = points[row][:, : corner.shape[1]]
-    to_vertex, to_line = np.full(len(line), np.inf), np.full(len(line), np.inf)
-    np.minimum.at(to_vertex, pair, np.linalg.norm(corner - target[pair], axis=1))
+class _Gaps(NamedTuple):
+    # Of p pairs of point and line.
+    to_line: Reals  #: (p,) in times the reach along each axis
+    to_vertex: Reals  #: (p,) to the nearest vertex, likewise
+    foot: Reals  #: (p,) metres to the place on the line that is nearest by that measure
+    vertex: Reals  #: (p,) metres to that vertex
+
+
+def _gaps(points: Coordinates, lines: Geometries, reach: Coordinates) -> _Gaps:
+    axes = reach.shape[1]
+    corner, pair = shapely.get_coordinates(lines, include_z=True, return_index=True)
+    unit = np.maximum(reach, _LEAST)[pair]
+    # From the point, so that large coordinates lose no digits.
+    spot = (np.nan_to_num(corner)[:, :axes] - points[pair, :axes]) / unit
+    far = np.linalg.norm(spot, axis=1)
+    to_vertex, vertex = _least(len(lines), pair, far, np.linalg.norm(spot * unit, axis=1))
     first = np.flatnonzero(pair[1:] == pair[:-1])
-    start, step, of = corner[first], corner[first + 1] - corner[first], pair[first]
+    start, step, of = spot[first], spot[first + 1] - spot[first], pair[first]
     square = np.einsum("ij,ij->i", step, step)
-    share = np.einsum("ij,ij->i", target[of] - start, step) / np.where(square > 0, square, 1.0)
-    foot = start + np.clip(share, 0.0, 1.0)[:, None] * step
-    np.minimum.at(to_line, of, np.linalg.norm(foot - target[of], axis=1))
-    to_line = np.minimum(to_line, to_vertex)
-    order = np.lexsort((line, to_line, row))
-    best = order[np.unique(row[order], return_index=True)[1]]
-    standing = np.where(found.line[row[best]] == NOTHING, np.inf, found.distance[row[best]])
-    best = best[(to_line[best] <= within[row[best]]) & (to_line[best] < standing)]
-    found.line[row[best]], found.distance[row[best]] = line[best], to_line[best]
-    found.vertex[row[best]] = to_vertex[best]
+    share = -np.einsum("ij,ij->i", start, step) / np.where(square > 0, square, 1.0)
+    aside = start + np.clip(share, 0.0, 1.0)[:, None] * step
+    to_line, foot = _least(len(lines), of, np.linalg.norm(aside, axis=1), np.linalg.norm(aside * unit[first], axis=1))
+    alone = to_vertex <= to_line  # a point among the linework has no segments
+    return _Gaps(np.where(alone, to_vertex, to_line), to_vertex, np.where(alone, vertex, foot), vertex)
+
+
+def _least(n: int, of: Index, measure: Reals, metres: Reals) -> tuple[Reals, Reals]:
+    """The least measure (n,) of each, and the metres that belong to it."""
+    least, length = np.full(n, np.inf), np.full(n, np.inf)
+    np.minimum.at(least, of, measure)
+    tied = measure <= least[of]
+    np.minimum.at(length, of[tied], metres[tied])
+    return least, length

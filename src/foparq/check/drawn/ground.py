@@ -71,9 +71,22 @@ class Ground:
             places[:, self.depth_axis] = np.nan
         return places
 
-    def footing(self, places: Coordinates, within: Reals) -> Footing:
-        """Linework on which places (n, 3) in metres, in the axes of the file, lie."""
-        return footing(self.on_sheet(places), self.work, within=within, deep=self.deep)
+    def footing(self, places: Coordinates, within: Reals, printed: Reals | None = None) -> Footing:
+        """Linework on which places (n, 3) in metres, in the axes of the file, lie; ``printed`` as :meth:`rounding`."""
+        rounding = None if printed is None else self.rounding(printed)
+        return footing(self.on_sheet(places), self.work, within=within, deep=self.deep, rounding=rounding)
+
+    def rounding(self, printed: Reals) -> Reals:
+        """Half the last printed digits (3,) along the axes of the file, as seen on the sheet: right, up, and depth.
+
+        Nothing along the depth of a flat drawing, where nothing is compared.
+        """
+        seen: Reals = np.abs(self.drawing.plane.frame) @ printed
+        return seen if self.deep else seen * [1.0, 1.0, 0.0]
+
+    def hidden(self, printed: Reals) -> float:
+        """How far a place may lie from where it is told to, because of the digits that are not printed, metres."""
+        return float(np.linalg.norm(self.rounding(printed)))
 
     def marked(self, places: Coordinates, within: Reals) -> Flags:
         """(n,) whether an insert or point that bears a name is at a place (n, 3), metres, in the axes of the file."""

@@ -82,7 +82,7 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
     made = np.zeros(n, dtype=bool)
     held, far = np.zeros((n, len(grounds)), dtype=bool), np.full((n, len(grounds)), np.inf)
     untold = np.isnan(points.delivered).all(axis=1)
-    within = np.full(n, near.tie + float(np.linalg.norm(points.printed)))
+    tie = np.full(n, near.tie)
     for number, ground in enumerate(grounds):
         absent, places = lies == Lies.ABSENT, points.delivered.copy()
         bearing = _bearing(points.id, ground)
@@ -90,17 +90,17 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
         places[by_name] = bearing[by_name]
         search = untold & absent & ~by_name
         places[search] = _only_vertices(ground, points.surveyed[search], near.search)
-        found = ground.footing(places, within)
-        on = (found.line != NOTHING) & (found.distance < np.where(absent, np.inf, gap))
+        found = ground.footing(places, tie, points.printed)
+        apart, named = _apart(ground, places, bearing, points.printed)
+        at_name = absent & (named <= near.tie) & ((found.line == NOTHING) | (apart < found.distance))
+        on = (found.line != NOTHING) & (found.distance < np.where(absent, np.inf, gap)) & ~at_name
         gap = np.where(on | absent, np.minimum(gap, found.distance), gap)
-        lies[on] = np.where(found.vertex[on] <= within[on], str(Lies.VERTEX), str(Lies.LINEWORK))
+        lies[on] = np.where(found.at_vertex[on], str(Lies.VERTEX), str(Lies.LINEWORK))
         lies[on & untold] = str(Lies.TAKEN_VERTEX)
         corner[on] = np.where(found.vertex[on] <= near.tie, found.vertex[on], np.inf)
         names["item"][on], names["layer"][on] = ground.item[found.line[on]], ground.layer[found.line[on]]
-        apart = _apart(ground, places, bearing)
-        held[:, number] = (found.line != NOTHING) | (apart <= within) | by_name
+        held[:, number] = (found.line != NOTHING) | (named <= near.tie) | by_name
         far[:, number] = ground.beyond(places, found.distance)
-        at_name = absent & ~on & (apart <= within)
         lies[at_name], gap[at_name] = str(Lies.NAMED), apart[at_name]
         corner[at_name] = np.where(apart[at_name] <= near.tie, apart[at_name], np.inf)
         lies[by_name] = str(Lies.TAKEN_NAMED)
@@ -109,13 +109,13 @@ def tie_points(points: Checkpoints, grounds: Sequence[Ground], near: Nearness) -
         names["drawing"][on] = ground.drawing.path
         drawn = np.flatnonzero(on & ~at_name & ~by_name)
         made[on] = False
-        made[drawn] = only_for_points(ground, places[drawn], within[drawn], near)
+        made[drawn] = only_for_points(ground, places[drawn], tie[drawn] + ground.hidden(points.printed), near)
         compared[on] = True
         compared[on, ground.depth_axis] = ground.deep
     absent = lies == Lies.ABSENT
     seen: Flags = np.any(compared, axis=0)
     lies[absent & untold] = str(Lies.UNTOLD)
-    cause, drawing = _cause(points.delivered, lies, grounds, within)
+    cause, drawing = _cause(points, lies, grounds, near.tie)
     return PointTies(
         lies=lies, gap=gap, **names, delivered=delivered, group=repeats(points.surveyed, apart=near.apart),
         corner=corner, unchecked=~seen, cause=cause, near=drawing,
@@ -142,11 +142,13 @@ def _bearing(ids: Texts, ground: Ground) -> Coordinates:
     return places
 
 
-def _apart(ground: Ground, places: Coordinates, bearing: Coordinates) -> Reals:
-    """Distances (n,) of places from those that bear their ids, in the axes that the drawing has; infinite without."""
-    step = ground.on_sheet(places) - ground.on_sheet(bearing)
-    gap: Reals = np.linalg.norm(step if ground.deep else step[:, :2], axis=1)
-    return np.where(np.isfinite(gap), gap, np.inf)
+def _apart(ground: Ground, places: Coordinates, bearing: Coordinates, printed: Reals) -> tuple[Reals, Reals]:
+    """Distances (n,) of places from those that bear their ids, infinite without; and the same less what was rounded."""
+    axes = 3 if ground.deep else 2
+    step = np.abs(ground.on_sheet(places) - ground.on_sheet(bearing))[:, :axes]
+    less = np.maximum(step - ground.rounding(printed)[:axes], 0.0)
+    gap, net = np.linalg.norm(step, axis=1), np.linalg.norm(less, axis=1)
+    return np.where(np.isfinite(gap), gap, np.inf), np.where(np.isfinite(net), net, np.inf)
 
 
 def _only_vertices(ground: Ground, surveyed: Coordinates, radius: float) -> Coordinates:
@@ -169,40 +171,42 @@ def _only_vertices(ground: Ground, surveyed: Coordinates, radius: float) -> Coor
 _ONE_VERTEX = 0.01  #: share of the radius of search in which ends of lines are one corner
 
 
-def _cause(delivered: Coordinates, lies: Texts, grounds: Sequence[Ground], within: Reals) -> tuple[Cause | None, str]:
+def _cause(points: Checkpoints, lies: Texts, grounds: Sequence[Ground], tie: float) -> tuple[Cause | None, str]:
     """One cause that explains why most points are absent, and the drawing on which all would lie.
 
     Corners of a drawing that was moved or stretched along its lines still lie on these. So where most points are absent
-    or within a line, and few absent, a cause is one that puts all of them at corners.
+    or within a line, and few absent, a cause is one that puts all of them at corners: as exactly as the tolerance asks,
+    or if there is none, as the printed digits allow.
     """
-    told = np.isfinite(delivered).all(axis=1)
+    told = np.isfinite(points.delivered).all(axis=1)
     absent, off = told & (lies == Lies.ABSENT), told & np.isin(lies, [Lies.ABSENT, Lies.LINEWORK])
     if 2 * np.count_nonzero(off) <= np.count_nonzero(told):
         return None, ""
     search = _cause_on if 2 * np.count_nonzero(absent) > np.count_nonzero(told) else _beside_corners
-    places, reach = delivered[told], within[told]
-    for ground in grounds:
-        cause = search(ground, places, reach)
-        if cause is not None:
-            return cause, ground.drawing.path
+    for digits in (0.0, 1.0):
+        for ground in grounds:
+            reach = tie + digits * ground.hidden(points.printed)
+            cause = search(ground, points.delivered[told], _bearing(points.id[told], ground), reach)
+            if cause is not None:
+                return cause, ground.drawing.path
     return None, ""
 
 
-def _cause_on(ground: Ground, places: Coordinates, within: Reals) -> Cause | None:
+def _cause_on(ground: Ground, places: Coordinates, bearing: Coordinates, within: float) -> Cause | None:
     def in_file(moved: Coordinates) -> Flags:
         return on_sheet(ground.on_sheet(moved))
 
     def on_sheet(moved: Coordinates) -> Flags:
-        lies: Flags = footing(moved, ground.every, within=within, deep=ground.deep).line != NOTHING
-        return lies
+        every = np.full(len(moved), within)
+        lies = footing(moved, ground.every, within=every, deep=ground.deep).line != NOTHING
+        return lies | _at(ground, moved, bearing, within)
 
-    step = float(within.max())
     return by_axes_or_unit(places, _FACTORS, in_file) or by_place_or_size(
-        ground.on_sheet(places), ground.corners(every=True), within=step, holds=on_sheet
+        ground.on_sheet(places), ground.corners(every=True), within=within, holds=on_sheet
     )
 
 
-def _beside_corners(ground: Ground, places: Coordinates, within: Reals) -> Cause | None:
+def _beside_corners(ground: Ground, places: Coordinates, bearing: Coordinates, within: float) -> Cause | None:
     sheet, corners, axes = ground.on_sheet(places), ground.corners(), 3 if ground.deep else 2
     if not len(sheet) or not len(corners):
         return None
@@ -211,9 +215,16 @@ def _beside_corners(ground: Ground, places: Coordinates, within: Reals) -> Cause
     tree = cKDTree(corners[:, :axes])
 
     def at_corners(moved: Coordinates) -> Flags:
-        lies: Flags = tree.query(moved[:, :axes])[0] <= within
-        return lies
+        lies = tree.query(moved[:, :axes])[0] <= within
+        return lies | _at(ground, moved, bearing, within)
 
     if 2 * np.count_nonzero(at_corners(sheet)) > len(sheet):
         return None
-    return by_place_or_size(sheet, corners, within=float(within.max()), holds=at_corners)
+    return by_place_or_size(sheet, corners, within=within, holds=at_corners)
+
+
+def _at(ground: Ground, moved: Coordinates, bearing: Coordinates, within: float) -> Flags:
+    """(n,) whether places on the sheet are those that bear the names of the points."""
+    step = (moved - ground.on_sheet(bearing))[:, : 3 if ground.deep else 2]
+    found: Flags = np.linalg.norm(step, axis=1) <= within  # what nobody bears is no number
+    return found

@@ -42,7 +42,7 @@ def _axis(spec: AbsoluteSpec, evidence: Evidence, axis: int) -> Element:
             method="directExternal",
         )  # fmt: skip
     tied = tied_points(points, evidence, id_, fewest=spec.fewest)
-    resolution = resolution_of(points, evidence, axis)
+    resolution = resolution_of(points, evidence, axis, tied.rows[np.isfinite(tied.differences[:, axis])])
     sample = Sample(
         kind="absolute", id=id_, all=tied.differences[:, axis], resolution=resolution, survey_sd=points.survey_sd
     )

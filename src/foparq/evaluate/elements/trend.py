@@ -61,7 +61,7 @@ def _axis(spec: TrendSpec, points: Checkpoints, evidence: Evidence, axis: int) -
             parameters=(("mean", found.mean, "m"), ("sd", found.sd, "m"), ("n", float(found.n), "items")),
         )  # fmt: skip
     test = student_test(known, confidence=spec.confidence)
-    resolution = resolution_of(points, evidence, axis)
+    resolution = resolution_of(points, evidence, axis, tied.rows[np.isfinite(every)])
     judgement = _judge(id_, test, found, len(every), resolution)
     good, gross = too_small(known, points.survey_sd, resolution, id_)
     if good and gross and judgement.status is ElementStatus.FAIL:  # what was copied has the trend of its rounding
