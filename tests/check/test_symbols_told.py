@@ -9,7 +9,10 @@ from typing import Any
 import ezdxf
 import numpy as np
 import pytest
+import shapely
+import shapely.affinity
 from ezdxf.document import Drawing as Document
+from tests.check.windows import drawing
 from tests.read.cad_exports import APART, WHOLE, export
 
 from foparq.audit import Audit, check_files
@@ -20,6 +23,8 @@ from foparq.cli.main import run
 from foparq.evaluate.quality import Verdict
 from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, Status
+from foparq.model.delivery import Delivery
+from foparq.model.items import Holder
 from foparq.profile.adjust import with_settings
 from foparq.profile.load import load_profile
 from foparq.read.delivery import read_loose
@@ -180,3 +185,20 @@ def test_a_search_that_breaks_off_leaves_the_rules_open(tmp_path: Path, because:
     assert {outcome.because for outcome in outcomes if outcome.name in FAULTS} == {because}
     assert {outcome.status for outcome in outcomes if outcome.name in FAULTS} == {Status.NOT_RUN}
     assert next(outcome for outcome in outcomes if outcome.name == "invalid-geometry").status is Status.CLEAN
+
+
+def test_an_invalid_shape_in_a_symbol_is_told_and_counts() -> None:
+    """An area whose hole is all of it, in each of four crosses."""
+    square = "0 0, 0.02 0, 0.02 0.02, 0 0.02, 0 0"
+    shapes, holders = ["LINESTRING (0 0, 9 0)"], [""]
+    for n in range(4):
+        for shape in ("LINESTRING (-0.05 0, 0.05 0)", f"POLYGON (({square}), ({square}))"):
+            shapes.append(shapely.affinity.translate(shapely.from_wkt(shape), n, 1).wkt)
+            holders.append(str(Holder(f"I{n}", "PONTOS", "CRUZ")))
+    part = drawing(shapes, holders=holders, classes={})
+    delivery, _ = with_symbols(Delivery(title="", sources=(), parts=(part,)), PROFILE, 50.0)
+    (part,) = delivery.drawings
+    assert len(part.symbols.rows) == 8
+    done = {outcome.name: outcome for outcome in check_part(part, PROFILE, 50.0).outcomes}
+    assert (done["invalid-geometry"].found, done["invalid-geometry"].checked) == (4, 5)
+    assert (done["undershoot"].found, done["undershoot"].checked) == (0, 1)

@@ -66,7 +66,7 @@ def with_symbols(
     found: dict[str, Symbols] = {}
     log: list[str] = []
     for drawing in delivery.drawings:
-        if drawing.unit.metres is None or not any(drawing.items.inserts):
+        if drawing.unit.metres is None or not any(drawing.items.holders):
             continue
         hidden = profile.reading.hidden == "check"
         args = (drawing, measures, frozenset(map(of_kind, listed)), hidden)
