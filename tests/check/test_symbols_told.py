@@ -20,7 +20,9 @@ from foparq.check.bounds import Broken, Budget
 from foparq.check.drawn.symbols import with_symbols
 from foparq.check.run import check_part
 from foparq.cli.main import run
+from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Verdict
+from foparq.evaluate.tally import tally
 from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, Status
 from foparq.model.delivery import Delivery
@@ -31,6 +33,7 @@ from foparq.read.delivery import read_loose
 from foparq.report.files import write_reports
 
 PROFILE = load_profile("et-doc-foparq-b")
+FAULTS_AND_INVALID = ("invalid-geometry", "undershoot", "duplicate")
 FAULTS = ("overshoot", "undershoot", "duplicate", "line-overlap", "self-intersection")
 
 
@@ -199,6 +202,9 @@ def test_an_invalid_shape_in_a_symbol_is_told_and_counts() -> None:
     delivery, _ = with_symbols(Delivery(title="", sources=(), parts=(part,)), PROFILE, 50.0)
     (part,) = delivery.drawings
     assert len(part.symbols.rows) == 8
-    done = {outcome.name: outcome for outcome in check_part(part, PROFILE, 50.0).outcomes}
+    outcomes = check_part(part, PROFILE, 50.0).outcomes
+    done = {outcome.name: outcome for outcome in outcomes}
     assert (done["invalid-geometry"].found, done["invalid-geometry"].checked) == (4, 5)
     assert (done["undershoot"].found, done["undershoot"].checked) == (0, 1)
+    counted = tally(Evidence(delivery=delivery, outcomes=outcomes, counts=None, scale=50.0), FAULTS_AND_INVALID)
+    assert (counted.faulty, counted.checked) == (4, 5)

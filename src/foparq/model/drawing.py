@@ -239,15 +239,19 @@ class Drawing(Part):
 
     @property
     def features(self) -> int:
-        """Items that rules may look at."""
-        return len(self.rows)
+        """Items that rules may look at; of symbols, only what is invalid is counted among them."""
+        return int(np.count_nonzero(self._looked_at))
 
     @property
     def rows(self) -> Index:
-        """Rows of these items; strokes of symbols are none of them."""
-        looked_at = ~self.items.paper & np.isin(self.items.role, [Role.LINE, Role.AREA, Role.POINT])
+        """Rows of these items, without symbols: these are no linework."""
+        looked_at = self._looked_at
         looked_at[self.symbols.rows] = False
         return np.flatnonzero(looked_at)
+
+    @property
+    def _looked_at(self) -> Flags:
+        return ~self.items.paper & np.isin(self.items.role, [Role.LINE, Role.AREA, Role.POINT])
 
     @property
     def vertices(self) -> int:
