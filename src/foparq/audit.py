@@ -17,6 +17,7 @@ from foparq import __version__
 from foparq.check.bounds import Broken, Budget, budget_of
 from foparq.check.drawn.ground import Nearness
 from foparq.check.drawn.placements import count_listed
+from foparq.check.drawn.symbols import with_symbols
 from foparq.check.drawn.ties import tie_evidence
 from foparq.check.drawn.witnesses import with_witnesses
 from foparq.check.run import check_part
@@ -179,6 +180,7 @@ def _judged(
     ties, untied = _tied(delivery, profile, scale) if not loose else (None, None)
     if not loose:
         delivery = with_witnesses(delivery, ties)
+    delivery, unsure = with_symbols(delivery, profile, scale, _in_child)
     checked = [check_part(part, profile, scale, progress, _in_child) for part in delivery.parts]
     outcomes = tuple(outcome for one in checked for outcome in one.outcomes)
     findings = join_findings([one.findings for one in checked])
@@ -186,14 +188,13 @@ def _judged(
     near = profile.evidence.search.si(scale) if profile.evidence and gap is not None else gap or 0.0
     counts, broken = (None, None) if gap is None else _counted(delivery, gap, near, profile)
     traces = (
-        *log,
-        *(trace for one in checked for trace in one.log),
+        *(*log, *unsure, *(trace for one in checked for trace in one.log)),
         *(one.trace for one in (untied, broken) if one and one.trace),
     )
     evidence = Evidence(
         delivery=delivery, outcomes=outcomes, counts=counts, scale=scale,
         uncounted=broken.because if broken else Because.RAN,
-        crashed=bool(log) or any(one is not None and one.because is Because.CRASHED for one in (untied, broken)),
+        crashed=bool(log or unsure) or any(one and one.because is Because.CRASHED for one in (untied, broken)),
         ties=ties,
         faults=int(np.count_nonzero(findings.severity != Severity.NOTE)),
     )  # fmt: skip

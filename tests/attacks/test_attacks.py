@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.attacks import (  # noqa: F401 - enter their attacks
+    blocks,
     evidence,
     facades,
     marks,

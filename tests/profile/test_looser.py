@@ -130,6 +130,12 @@ LOOSER = {
     "nothing is headed for": (
         '[linework]\nheading = "0.2 mm @ scale"\n', Point.VALUE, "linework.heading", (0.01, "m"), (0.05, "m"),
     ),
+    "larger things are symbols": (
+        '[linework]\nsymbol = "30 mm @ scale"\n', Point.VALUE, "linework.symbol", (1.5, "m"), (0.15, "m"),
+    ),
+    "rarer things are symbols": (
+        "[linework]\nsymbol_times = 2\n", Point.VALUE, "linework.symbol_times", 2, 3,
+    ),
     "a scale of its own": ('scale = "1:50"\n', Point.SCALE, "", "1:50", ""),
 }  # fmt: skip
 
@@ -146,6 +152,8 @@ STRICTER = {
     "an element more": element("Q9", "found-rate", rules='["gap"]', limit='"0 %"'),
     "a rule more counted": element("Q3", "faulty-rate", limit='"10 %"', rules=str([*Q3, "open-ring"])),
     "a higher severity": undershoot().replace("major", "critical"),
+    "nothing is a symbol": '[linework]\nsymbol = "0 mm"\n',
+    "only what is often repeated is a symbol": "[linework]\nsymbol_times = 30\n",
     "more reach": undershoot(reach='"1 mm @ scale"'),
     "less is the same place for an end": undershoot(coincide='"0.001 mm @ scale"'),
     "more is the same place for copies": check("duplicate", coincide='"1 mm"'),

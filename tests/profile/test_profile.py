@@ -72,6 +72,25 @@ def test_a_wrong_manifest_is_told_with_file_line_value_and_example(
         assert str(line) in sentence
 
 
+@pytest.mark.parametrize(
+    ("line", "message", "example"),
+    [
+        ("symbol = 3", "quantity.bare", "3 mm @ scale"),
+        ('symbol = "3 deg"', "quantity.wrong-unit", "3 mm @ scale"),
+        ("symbol_times = 0", "toml.wrong-value", "symbol_times = 3"),
+        ("symbol_times = true", "toml.wrong-value", "symbol_times = 3"),
+        ("symbol_times = 2.5", "toml.wrong-value", "symbol_times = 3"),
+    ],
+)
+def test_what_recognises_a_symbol_is_told_if_it_is_wrong(tmp_path: Path, line: str, message: str, example: str) -> None:
+    text = f'extends = "et-doc-foparq-a"\nname = "mine"\n[linework]\n{line}\n'
+    with pytest.raises(ProfileError) as caught:
+        load_profile(str(write(tmp_path, text, "mine.toml")))
+    assert caught.value.message.startswith(message)
+    assert caught.value.fields["line"] == 4
+    assert example in caught.value.fields["example"]
+
+
 def test_an_empty_manifest_is_a_manifest(tmp_path: Path) -> None:
     manifest = load_manifest(write(tmp_path, ""))
     assert manifest.drawing == ()

@@ -140,6 +140,6 @@ def test_what_shows_no_linework_leaves_nothing_open() -> None:
     closed = {reason.value for reason in SkippedReason if not reason.opens}
     assert closed == {
         "above-header", "attributes", "degenerate", "ignored-layer", "image", "infinite-line", "no-geometry",
-        "not-asked", "not-plotted", "ole", "paper-space", "raster", "trigger", "unlisted-geometry", "unlisted-view",
-        "unlisted-virtual-table", "viewport", "wipeout", "xclip-ignored",
+        "not-asked", "not-plotted", "ole", "paper-space", "point-symbol", "raster", "trigger", "unlisted-geometry",
+        "unlisted-view", "unlisted-virtual-table", "viewport", "wipeout", "xclip-ignored",
     }  # fmt: skip

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Layers that are not checked, and what may be concluded without them.
+"""Layers and symbols that are not checked, and what may be concluded without them.
 
-A person may leave out axes and dimensions. Nobody may leave out the drawing: where most of the linework, or a layer
-that the manifest itself calls a feature or a coverage, is not checked, nothing is accepted.
+A person may leave out axes and dimensions, and point symbols are no linework. Nobody may leave out the drawing: where
+most of the linework, or a layer that the manifest itself calls a feature or a coverage, is not checked, nothing is
+accepted.
 """
 
 from collections import defaultdict
@@ -15,20 +16,21 @@ from foparq.evaluate.quality import Reason, because
 from foparq.model.drawing import Drawing, SkippedReason
 from foparq.model.items import Role
 from foparq.model.layers import class_of, matches
+from foparq.model.symbols import SymbolBlock
 
 _MOST = 0.5  #: of the items or of their length
-_LAYERS = 10  #: that a reason names
+_LAYERS = 10  #: that a reason names; and blocks
 #: what hides a feature, and what leaves out most of the linework
 _DOUBTS = {
-    "element": ("unseen.ignored-feature", "unseen.ignored-most"),
-    "files": ("files.ignored-feature", "files.ignored-most"),
+    "element": ("unseen.ignored-feature", "unseen.ignored-most", "unseen.symbols-most"),
+    "files": ("files.ignored-feature", "files.ignored-most", "files.symbols-most"),
 }
 _REMARKS = {SkippedReason.IGNORED_LAYER: "verdict.ignored", SkippedReason.NOT_PLOTTED: "verdict.not-plotted"}
 
 
 def left_out(evidence: Evidence) -> tuple[Reason, ...]:
-    """Layers that were not checked, with what lies on them: said beside every verdict."""
-    return tuple(
+    """Layers and symbols that were not checked, with what they hold: said beside every verdict."""
+    layers = tuple(
         because(
             message, file=drawing.path, layers=_told(layers), n=sum(layers.values()),
             share=(_share(drawing, tuple(layers)), "1"),
@@ -37,26 +39,48 @@ def left_out(evidence: Evidence) -> tuple[Reason, ...]:
         for reason, message in _REMARKS.items()
         if (layers := _layers(drawing, reason))
     )  # fmt: skip
+    return (*layers, *(_symbols(drawing) for drawing in evidence.delivery.drawings if drawing.symbols.blocks))
+
+
+def _symbols(drawing: Drawing) -> Reason:
+    blocks = drawing.symbols.blocks
+    names = [_block(block) for block in sorted(blocks, key=lambda block: -block.inserts)]
+    near = sum(block.near for block in blocks)
+    return because(
+        "verdict.symbols-near" if near else "verdict.symbols", file=drawing.path, blocks=_first(names),
+        n=drawing.symbols.inserts, items=len(drawing.symbols.rows), near=near, share=(_share(drawing, ()), "1"),
+    )  # fmt: skip
+
+
+def _block(block: SymbolBlock) -> str:
+    """``"CRUZ × 12 (PONTOS)"``; a block that the file does not name by its first insert, ``"2F … × 12 (PONTOS)"``."""
+    layers = _first([layer for layer, _ in block.layers])
+    return f"{block.name or f'{block.handles[0]} …'} × {block.inserts} ({', '.join(layers)})"
 
 
 def left_out_doubts(evidence: Evidence, name: str = "") -> tuple[Reason, ...]:
-    """Why nothing can be concluded without the layers that were left out.
+    """Why nothing can be concluded without the layers that were left out, and the symbols.
 
     Parameters
     ----------
     name : str
         Id of the element that is left open; ``""`` for loose files.
     """
-    (feature, most), fields = (_DOUBTS["element"], {"element": name}) if name else (_DOUBTS["files"], {})
+    (feature, most, symbols), fields = (_DOUBTS["element"], {"element": name}) if name else (_DOUBTS["files"], {})
     why: list[Reason] = []
     for drawing in evidence.delivery.drawings:
         asked = _layers(drawing, SkippedReason.IGNORED_LAYER)
         every = (*asked, *_layers(drawing, SkippedReason.NOT_PLOTTED))
         if meant := [layer for layer in asked if _meant(drawing, layer)]:
             why.append(because(feature, file=drawing.path, layers=meant[:_LAYERS], **fields))
-        if every and (share := _share(drawing, every)) > _MOST:
-            told = sorted(every)[:_LAYERS]
-            why.append(because(most, file=drawing.path, layers=told, share=(share, "1"), **fields))
+        if not (every or drawing.symbols.blocks) or (share := _share(drawing, every)) <= _MOST:
+            continue
+        told = {**fields, "file": drawing.path, "share": (share, "1")}
+        if drawing.symbols.blocks:
+            blocks = _first([_block(block) for block in drawing.symbols.blocks])
+            why.append(because(symbols, parts=[*sorted(every)[:_LAYERS], *blocks], **told))
+        else:
+            why.append(because(most, layers=sorted(every)[:_LAYERS], **told))
     return tuple(why)
 
 
@@ -70,8 +94,11 @@ def _layers(drawing: Drawing, reason: SkippedReason) -> dict[str, int]:
 
 
 def _told(layers: dict[str, int]) -> list[str]:
-    names = [f"{layer} ({n})" for layer, n in layers.items()]
-    return [*names[:_LAYERS], *(["…"] if len(names) > _LAYERS else [])]
+    return _first([f"{layer} ({n})" for layer, n in layers.items()])
+
+
+def _first(names: Sequence[str]) -> list[str]:
+    return [*names[:_LAYERS], *([f"+{len(names) - _LAYERS}"] if len(names) > _LAYERS else [])]
 
 
 def _meant(drawing: Drawing, layer: str) -> bool:
@@ -80,11 +107,16 @@ def _meant(drawing: Drawing, layer: str) -> bool:
 
 
 def _share(drawing: Drawing, layers: Sequence[str]) -> float:
-    """Share of the linework that lies on some layers: of the items or of their length, whichever is more."""
+    """Share of the linework that lies on some layers or draws symbols.
+
+    By length; or of the items that lie on the layers, whichever is more: symbols are many and small.
+    """
     items = drawing.items
     seen = ~items.paper & np.isin(items.role, [Role.LINE, Role.AREA]) & drawing.visible_rows()
     on = np.isin(items.layer, list(layers))
-    some, every = np.flatnonzero(seen & on), np.flatnonzero(seen)
+    either = on.copy()
+    either[drawing.symbols.rows] = True
+    every = np.flatnonzero(seen)
     length = drawing.extent(every)
-    by_length = drawing.extent(some) / length if length > 0 else 0.0
-    return max(by_length, len(some) / len(every) if len(every) else 0.0)
+    by_length = drawing.extent(np.flatnonzero(seen & either)) / length if length > 0 else 0.0
+    return max(by_length, np.count_nonzero(seen & on) / len(every) if len(every) else 0.0)

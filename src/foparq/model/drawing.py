@@ -11,6 +11,7 @@ from foparq.columns import Flags, Geometries, Index, Reals, Texts
 from foparq.model.items import Items, Role
 from foparq.model.part import Part
 from foparq.model.plane import Plane
+from foparq.model.symbols import Symbols
 
 
 class SkippedReason(StrEnum):
@@ -19,6 +20,7 @@ class SkippedReason(StrEnum):
     # of any drawing
     IGNORED_LAYER = "ignored-layer"  #: a person says that the layer is not to be checked
     NOT_PLOTTED = "not-plotted"  #: on a layer that is never plotted
+    POINT_SYMBOL = "point-symbol"  #: a block insert that is taken for a sign on the drawing
     MALFORMED = "malformed"
     NO_GEOMETRY = "no-geometry"
     PAPER_SPACE = "paper-space"  #: beside a drawing in model space: frames, stamps, viewports
@@ -79,6 +81,7 @@ _NO_LINEWORK = frozenset({
     SkippedReason.NOT_ASKED,  # the manifest names what is delivered
     SkippedReason.NOT_PLOTTED,  # no sheet shows it: evaluated by itself where it is most of the drawing
     SkippedReason.OLE,  # a table or text of another program
+    SkippedReason.POINT_SYMBOL,  # a sign, no linework: evaluated by itself
     SkippedReason.PAPER_SPACE,  # lettering of the sheet, while the drawing stands in model space
     SkippedReason.RASTER,  # tiles of an image
     SkippedReason.TRIGGER,  # runs when a row changes, draws nothing
@@ -230,18 +233,25 @@ class Drawing(Part):
     areas: tuple[str, ...] = ()  #: patterns of the layers whose closed lines bound areas of a coverage
     bind: tuple[tuple[str, ...], ...] = ()  #: groups of layer patterns that are drawn as one
     ignored: frozenset[str] = frozenset()  #: layers that are neither judged nor linework that others may meet
+    symbols: Symbols = field(default_factory=Symbols)  #: inserts that are no linework of it
     heard: tuple[Heard, ...] = ()  #: what other files of the delivery say of its unit
     confirmed: frozenset[str] = frozenset()  #: what a person confirmed of it: ``unit``, ``plane``
 
     @property
     def features(self) -> int:
-        """Items that rules may look at."""
-        return len(self.rows)
+        """Items that rules may look at; of symbols, only what is invalid is counted among them."""
+        return int(np.count_nonzero(self._looked_at))
 
     @property
     def rows(self) -> Index:
-        """Rows of these items."""
-        return np.flatnonzero(~self.items.paper & np.isin(self.items.role, [Role.LINE, Role.AREA, Role.POINT]))
+        """Rows of these items, without symbols: these are no linework."""
+        looked_at = self._looked_at
+        looked_at[self.symbols.rows] = False
+        return np.flatnonzero(looked_at)
+
+    @property
+    def _looked_at(self) -> Flags:
+        return ~self.items.paper & np.isin(self.items.role, [Role.LINE, Role.AREA, Role.POINT])
 
     @property
     def vertices(self) -> int:

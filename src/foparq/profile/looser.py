@@ -47,7 +47,10 @@ _EVIDENCE = {
     "coarsest": _DIFFERENT,
 }  # fmt: skip
 #: of ``[linework]``: which change finds less
-_LINEWORK = {"ahead": _SMALLER, "alongside": _LARGER, "remainder": _LARGER, "heading": _SMALLER}
+_LINEWORK = {
+    "ahead": _SMALLER, "alongside": _LARGER, "remainder": _LARGER, "heading": _SMALLER, "symbol": _LARGER,
+    "symbol_times": _SMALLER,
+}  # fmt: skip
 _PATTERNS = 10  #: layer patterns that are named
 _WEIGHT = {severity: weight for weight, severity in enumerate(reversed(Severity))}
 

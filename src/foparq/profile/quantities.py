@@ -4,7 +4,7 @@
 from enum import StrEnum
 from typing import Annotated
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from foparq.errors import QuantityError
 from foparq.units import Quantity, parse_any_quantity, parse_quantity, parse_scale
@@ -35,6 +35,15 @@ Share = Annotated[
 AnyQuantity = Annotated[
     Quantity, BeforeValidator(lambda text: text if isinstance(text, Quantity) else parse_any_quantity(text))
 ]
+
+
+def _no_flag(number: object) -> object:
+    if isinstance(number, bool):
+        raise ValueError("a flag is no number")  # noqa: TRY004 - what pydantic tells as a wrong value
+    return number
+
+
+Times = Annotated[int, BeforeValidator(_no_flag), Field(ge=1)]
 
 
 def _known_scale(text: object) -> str:

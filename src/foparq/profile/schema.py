@@ -9,7 +9,7 @@ from pydantic import Field
 
 from foparq.findings.table import Severity
 from foparq.profile.elements import ElementSpec
-from foparq.profile.quantities import Angle, AnyQuantity, Length, Ratio, ScaleText, Strict
+from foparq.profile.quantities import Angle, AnyQuantity, Length, Ratio, ScaleText, Strict, Times
 from foparq.units import Quantity
 
 
@@ -64,7 +64,7 @@ class EvidenceSpec(Strict):
 
 
 class LineworkSpec(Strict):
-    """What the direction of linework means: ``[linework]``.
+    """What the direction of linework means, and what is none: ``[linework]``.
 
     Tolerances of every rule that has them, unless the rule's own ``[[check]]`` says otherwise.
     """
@@ -73,11 +73,16 @@ class LineworkSpec(Strict):
     alongside: Angle = Quantity(15.0, "deg")  #: what turns less against an end runs alongside
     remainder: Ratio = Quantity(300.0, "%")  #: an overshoot's line goes on beyond the meeting, in lengths of the stub
     heading: Length = Quantity(1.0, "mm", at_scale=True)  #: how far an end may head for a line
+    symbol: Length = Quantity(
+        3.0, "mm", at_scale=True
+    )  #: circle into which the linework of a point symbol fits; 0: none
+    symbol_times: Times = 3  #: inserts from which on a block so small is a sign that is repeated
 
     @property
     def tolerances(self) -> dict[str, Quantity]:
-        """All of them by name."""
-        return {name: getattr(self, name) for name in type(self).model_fields}
+        """All of them by name; what is no quantity is none."""
+        values = {name: getattr(self, name) for name in type(self).model_fields}
+        return {name: value for name, value in values.items() if isinstance(value, Quantity)}
 
 
 class ReadingSpec(Strict):

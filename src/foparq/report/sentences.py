@@ -228,7 +228,7 @@ def source_sentence(words: Words, source: Source) -> str:
 
 def skipped_sentence(words: Words, skipped: Skipped) -> str:
     """Why things of a file reach no check: ``report.skipped.REASON``."""
-    return words(f"report.skipped.{skipped.reason}", kind=skipped.kind, layer=skipped.layer, name=skipped.name)
+    return words(f"report.skipped.{skipped.reason}", kind=skipped.kind, layer=skipped.layer, name=skipped.name or "–")
 
 
 def outcome_because(words: Words, outcome: Outcome) -> str:

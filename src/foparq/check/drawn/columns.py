@@ -46,6 +46,8 @@ class Columns:
         self.rows: Index = rows[np.lexsort((item, layer))]  #: (n,) of the drawing's items
         self.layer: Texts = items.layer[self.rows]
         self.role: Texts = items.role[self.rows]
+        #: strokes of point symbols: features as others are, and no linework
+        self.symbol: Flags = np.isin(self.rows, drawing.symbols.rows)
         self.metres = drawing.unit.metres or 1.0
         self.geometry = self.on_sheet(items.geometry[self.rows])
         #: lines that bound areas because the manifest says so of their layer
@@ -111,6 +113,7 @@ class Columns:
         """Rows among ``on`` that are of a kind, whether an input can hold them or not."""
         if kind is Features:
             return on
+        on = on[~self.symbol[on]]
         area, line = self.role[on] == Role.AREA, self.role[on] == Role.LINE
         mine: Index = on[area | self.bounding[on]] if kind is Areas else on[area | line]
         return mine
@@ -130,6 +133,7 @@ class Columns:
         return Features(geometry=self.geometry[on], **self._named(on))
 
     def _lines(self, on: Index) -> Lines:
+        on = on[~self.symbol[on]]
         geometry = self.geometry[on]
         kind, near = shapely.get_type_id(geometry), _measurable(geometry)
         single = on[np.isin(kind, [_LINE_STRING, _LINEAR_RING]) & near & (shapely.get_num_points(geometry) > 1)]
@@ -153,6 +157,7 @@ class Columns:
         )
 
     def _areas(self, on: Index) -> Areas:
+        on = on[~self.symbol[on]]
         shapes = self.geometry[on].copy()
         near = _measurable(shapes)
         lines = np.flatnonzero(self.bounding[on] & near & (shapely.get_num_points(shapes) >= _RING_VERTICES))

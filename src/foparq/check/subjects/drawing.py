@@ -88,7 +88,7 @@ class DrawingSubject(Subject):
         return kind in EXAMINED
 
     def doubt(self, outcomes: Sequence[Outcome]) -> Doubt:
-        """Unit unknown or contradicted, or a plane that is not the drawing's.
+        """Unit unknown or contradicted, a plane that is not the drawing's, or symbols that nobody told apart.
 
         The file's own unit is doubtful as soon as one statement contradicts it. A unit that a person states is so if
         two independent witnesses say otherwise, or what the person states of another drawing with the same coordinates
@@ -107,7 +107,7 @@ class DrawingSubject(Subject):
             witnesses = against(self.drawing, max(dict(_agree(one)).get("agree", 0.0) for one in doubted))
             if len(witnesses) >= _WITNESSES or _ALONE & witnesses.keys():
                 return Doubt(Because.UNIT_CONTRADICTED, (f"unit: {unit.name}", *witnesses.values()))
-        return self._plane_doubt
+        return self._plane_doubt if not self.drawing.symbols.broken else Doubt(Because(self.drawing.symbols.broken))
 
     @cached_property
     def _plane_doubt(self) -> Doubt:
@@ -121,17 +121,17 @@ class DrawingSubject(Subject):
         return NO_DOUBT
 
     def counted(self, rows: Index, faulty: Index) -> int:
-        """Features judged. A point has no topology: it counts only where it is at fault."""
+        """Features judged. A point has no topology, nor has a symbol: they count only where they are at fault."""
         rows = rows[rows >= 0]
         if not len(rows):
             return 1  # a statement about the file: the file was checked
-        drawn = rows[self.drawing.items.role[rows] != Role.POINT]
+        drawn = rows[(self.drawing.items.role[rows] != Role.POINT) & ~np.isin(rows, self.drawing.symbols.rows)]
         return len(union(drawn, faulty[faulty >= 0]))
 
     def too_small(self, rows: Index, visible: float) -> Index:
-        """Lines and areas that fit into a smaller circle; points have no size."""
+        """Lines and areas that fit into a smaller circle; points have no size, and symbols are counted nowhere."""
         if visible not in self._small:
-            drawn = np.flatnonzero(self.columns.role != Role.POINT)
+            drawn = np.flatnonzero((self.columns.role != Role.POINT) & ~self.columns.symbol)
             self._small[visible] = self.columns.rows[drawn[smaller_than(self.columns.geometry[drawn], visible)]]
         found: Index = np.intersect1d(rows, self._small[visible], assume_unique=True)
         return found

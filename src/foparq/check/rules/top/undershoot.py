@@ -25,6 +25,11 @@ def undershoot(
     a curve do not. The distance is that to the nearest place in the plane, joined with the difference in depth there.
     Lines no longer than ``coincide`` are no other linework, so that a dot hides nothing; they join what they touch.
 
+    The strokes of point symbols are no linework for any rule. A block insert is a *point symbol* if its lines fit into
+    a circle of diameter ``symbol`` (``[linework]`` of the profile), and if its block is inserted so at least
+    ``symbol_times`` times, fewer than half of which are bound to other linework by ends; or if nothing else lies as
+    near as ``heading``. What shows a feature or a coverage is none. Symbols are listed with what was not checked.
+
     An end is *connected* if other linework is not farther than ``coincide`` in the plane, and not farther in depth
     there; or if its own line comes back to it as near, having left the circle of radius ``coincide``; or if a chain of
     lines no longer than ``coincide``, end near end, leads from it to either. An end that is not connected may be an
