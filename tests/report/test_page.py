@@ -203,7 +203,7 @@ def test_what_was_not_checked_is_said(rejected: AuditRecord) -> None:
         "Deleted owner handle 1F of a missing block 9A",
     ):
         assert part in text, part
-    assert "coincidência (coincide) 0,1 mm; alcance (reach) 10 mm" in text
+    assert "coincidência 0,1 mm; alcance 10 mm" in text
     assert "coincide 0.1 mm; reach 10 mm" in read(rejected).words("en")
 
 

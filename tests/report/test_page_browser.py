@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The page in headless Chromium: quiet, offline, in both languages, with and without script, on screen and on paper."""
 
+import io
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,7 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 import shapely
+from pypdf import PdfReader
 
+from foparq.findings.table import Findings
+from foparq.model.drawing import Drawing
 from foparq.report.page.page import write_page
 from foparq.report.record import AuditRecord
 
@@ -174,7 +178,7 @@ def test_layers_can_be_hidden(browser: "Browser", path: Path) -> None:
     assert uses.evaluate_all("found => found.every((use) => getComputedStyle(use).display !== 'none')")
 
 
-def test_paper_shows_one_language_whole_and_no_controls(browser: "Browser", path: Path) -> None:
+def test_paper_shows_one_language_whole_and_no_controls(browser: "Browser", path: Path, rejected: AuditRecord) -> None:
     shown = Shown(browser, path)
     whole = shown.view()
     shown.page.locator(".tools:visible [data-do=in]").click()
@@ -184,9 +188,120 @@ def test_paper_shows_one_language_whole_and_no_controls(browser: "Browser", path
     assert shown.page.locator("main:visible").count() == 1
     for control in (".strip", ".tools", "nav", ".toggle"):
         assert shown.page.locator(f"{control}:visible").count() == 0
-    assert shown.page.locator("details:visible dl").first.is_visible()
+    assert shown.page.locator(".method dl:visible").count() == len(rejected.quality.elements)
     assert shown.view() == whole
     assert shown.page.pdf(format="A4").startswith(b"%PDF")
+
+
+def on_paper(
+    browser: "Browser", path: Path, *, script: bool = True, every: bool = False, language: str = ""
+) -> PdfReader:
+    """The page as it is printed."""
+    shown = Shown(browser, path, script=script, at="?print=all" if every and script else "")
+    if language:
+        shown.page.locator(f"label[for=show-{language}]").click()
+    if every and not script:
+        shown.page.locator("label.print-all:visible").click()
+    return PdfReader(io.BytesIO(shown.page.pdf(format="A4", prefer_css_page_size=True)))
+
+
+@pytest.fixture
+def many(rejected: AuditRecord, drawing: Drawing, plant: Callable[..., Findings], tmp_path: Path) -> Path:
+    """A page with 66 findings of one rule, strewn over the elevation."""
+    places = np.random.default_rng(5).uniform((0, 0), (30, 9), (66, 2)).tolist()
+    rows = [(f"{n:X}", "ESQUADRIA_PORTA", shapely.Point(x, 12.5, z), 0.004) for n, (x, z) in enumerate(places)]
+    findings = plant(drawing, "TOP011", "undershoot", rows)
+    write_page(replace(rejected, findings=findings, outcomes=()), tmp_path / "many.html")
+    return tmp_path / "many.html"
+
+
+def plates_on_paper(printed: PdfReader, word: str) -> dict[int, str]:
+    """Text of the pages by the plates that stand on them."""
+    found = {}
+    for sheet in printed.pages:
+        text = sheet.extract_text()
+        found |= {int(number): text for number in re.findall(rf"{word} (\d+)\.", text)}
+    return found
+
+
+@pytest.mark.parametrize("script", [True, False])
+def test_paper_holds_the_first_rows_and_all_on_request(browser: "Browser", many: Path, *, script: bool) -> None:
+    texts = {
+        every: "\n".join(sheet.extract_text() for sheet in on_paper(browser, many, script=script, every=every).pages)
+        for every in (False, True)
+    }
+    ends = {every: len(re.findall(r"termina 4 mm\s+antes", text)) for every, text in texts.items()}
+    assert ends == {False: 20, True: 66}
+    assert "Impressas: as primeiras 20 de 66 linhas." in " ".join(texts[False].split())
+    assert "Impressas: as primeiras" not in texts[True]
+    assert "Camadas de fachada.dxf" in texts[True]
+    assert "Camadas de fachada.dxf" not in texts[False]
+
+
+def test_paper_has_plates_with_the_number_of_every_row(browser: "Browser", many: Path) -> None:
+    printed = on_paper(browser, many, every=True, language="en")
+    plates = plates_on_paper(printed, "Plate")
+    assert len(plates) >= 4
+    text = many.read_text(encoding="utf-8")
+    english = text[text.index('<main lang="en">') :]
+    rows = re.findall(
+        r'<tr id="f-[^"]+--en">\s*<td class="n">.*?>(\d+)<.*?<td class="n paper">(\d+)</td>', english, re.DOTALL
+    )
+    assert len(rows) == 66
+    for number, plate in rows:
+        assert re.search(rf"(?<!\d){number}(?!\d)", plates[int(plate)]), f"number {number} on plate {plate}"
+    lying = [sheet for sheet in printed.pages if sheet.mediabox.width > sheet.mediabox.height]
+    assert len(lying) >= 2, "wide drawings on lying sheets"
+    assert all("Plate" in sheet.extract_text() for sheet in lying)
+    assert len(printed.pages) < 25
+
+
+def test_layers_are_not_broken_on_paper(browser: "Browser", many: Path) -> None:
+    text = "\n".join(sheet.extract_text() for sheet in on_paper(browser, many).pages)
+    assert text.count("ESQUADRIA_PORTA") >= 40, "in the column and in the sentence of twenty rows"
+
+
+def test_rows_unfold_without_script_and_by_their_address(browser: "Browser", many: Path) -> None:
+    shown = Shown(browser, many, script=False)
+    rows = shown.page.locator("main:visible .rows tbody tr:visible")
+    assert rows.count() == 20
+    shown.page.locator("main:visible label.button").click()
+    assert rows.count() == 66
+    shown.page.locator("main:visible label.button").click()
+    assert rows.count() == 20
+    last = re.findall(r'<tr id="(f-[^"]+)"', many.read_text(encoding="utf-8"))[65]
+    for script in (True, False):
+        assert Shown(browser, many, script=script, at=f"#{last}").page.locator(f"[id='{last}']").is_visible()
+
+
+def test_a_telephone_shows_letters_that_can_be_read_and_targets_that_can_be_hit(browser: "Browser", many: Path) -> None:
+    shown = Shown(browser, many, width=390)
+    for language in ("en", "pt-BR"):
+        shown.page.locator(f"label[for=show-{language}]").click()
+        assert shown.page.evaluate("document.documentElement.scrollWidth") <= 390
+        small = shown.page.evaluate("""() => {
+            const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT), found = [];
+            for (let node; node = texts.nextNode();) {
+                const holder = node.parentElement, box = holder.getBoundingClientRect();
+                if (!node.data.trim() || !box.width || holder.closest("svg, script, style, .unseen"))
+                    continue;
+                if (parseFloat(getComputedStyle(holder).fontSize) < 14) found.push(node.data.trim().slice(0, 40));
+            }
+            return found;
+        }""")
+        assert small == []
+        low = shown.page.evaluate("""() => [...document.querySelectorAll(
+            "label:not([for='']), button, summary, nav a, .to-mark")].filter((one) => {
+                const box = one.getBoundingClientRect();
+                return box.width && (box.height < 44 || box.width < 44);
+            }).map((one) => one.textContent)""")
+        assert low == []
+    cards = shown.page.locator("main:visible .rows tbody tr:visible").all()
+    for card in cards:
+        for cell in card.locator("td:visible").all():
+            box = cell.bounding_box()
+            assert box is not None
+            assert 0 <= box["x"] < box["x"] + box["width"] <= 390
 
 
 def test_a_toned_picture_is_shown(

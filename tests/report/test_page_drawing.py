@@ -18,8 +18,9 @@ from foparq.findings.table import Findings, no_findings
 from foparq.model.drawing import Drawing
 from foparq.model.items import Items
 from foparq.model.plane import plane_of
+from foparq.report.page.bar import bar_text
 from foparq.report.page.drawing import EXACT_VERTICES, GROUPS, Picture, marks_at, picture_of
-from foparq.report.page.page import bar_text, page
+from foparq.report.page.page import page
 from foparq.report.page.paths import Strokes, density, merged_dots, path_data, simplify, strokes_of
 from foparq.report.page.png import grey_png
 from foparq.report.record import AuditRecord

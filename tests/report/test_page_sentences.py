@@ -49,10 +49,7 @@ def test_scopes_and_tolerances(rejected: AuditRecord) -> None:
     run = next(run for run in rejected.outcomes if run.rule == "TOP011")
     assert say.outcome_scope(Words("en"), run) == "fachada.dxf: all layers"
     assert say.outcome_scope(Words("en"), replace(run, scope="fachada.dxf: PAREDE*")) == "fachada.dxf: PAREDE*"
-    assert (
-        say.parameters_sentence(Words("pt-BR"), run.parameters)
-        == "coincidência (coincide) 0,1 mm; alcance (reach) 10 mm"
-    )
+    assert say.parameters_sentence(Words("pt-BR"), run.parameters) == "coincidência 0,1 mm; alcance 10 mm"
     assert say.parameter_name(Words("pt-BR"), "measure-23") == "contagem conforme a medida 23 da ISO 19157"
     assert say.outcome_because(Words("en"), run) == ""
     assert say.outcome_because(Words("en"), replace(run, status=Status.CRASHED, because=Because.CRASHED)).startswith(

@@ -10,10 +10,10 @@ import shapely
 
 from foparq.findings.table import Findings
 from foparq.model.drawing import Drawing
+from foparq.report.page.bar import scale_bar
 from foparq.report.page.drawing import picture_of
 from foparq.report.page.findings import group_view, listing_of
 from foparq.report.page.marks import mark_views
-from foparq.report.page.page import _bar
 from foparq.report.record import AuditRecord
 from foparq.report.words import Words
 
@@ -58,7 +58,7 @@ def test_a_mark_is_shown_with_room_around_it(
 def test_the_scale_bar_is_the_longest_round_one_within_a_fifth(drawing: Drawing, width: float, plant: Plant) -> None:
     made = house(drawing, width)
     one = picture_of(made, 1, plant(made, "TOP011", "undershoot", []), np.empty(0, dtype=np.intp))
-    share, text = _bar(Words("en"), one)
+    share, text = scale_bar(Words("en"), one, one.width)
     across = one.width * one.quantum
     round_ = np.outer([1, 2, 5], 10.0 ** np.arange(-6, 6)).ravel()
     assert share * across == pytest.approx(round_[round_ <= across / 5 * (1 + 1e-9)].max(), rel=1e-9)

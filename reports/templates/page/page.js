@@ -129,6 +129,8 @@
     const mark = target.matches(".mark");
     if (!mark && !target.matches(".rows tr")) return false;
     here(target);
+    const fold = target.closest(".rest") && target.closest("article").querySelector(".unfold");
+    if (fold) fold.checked = true;
     if (mark) {
       const svg = target.closest("svg");
       svg.look(Number(target.dataset.x), Number(target.dataset.y), Number(target.dataset.window));
@@ -145,6 +147,9 @@
   });
   addEventListener("popstate", () => go(location.hash, true));
   if (location.hash) go(location.hash, true);
+
+  // "?print=all" asks for all rows on paper, as the box on top does.
+  if (new URLSearchParams(location.search).get("print") === "all") document.getElementById("print-all").checked = true;
 
   // Paper folds nothing.
   let folded = [];

@@ -133,6 +133,11 @@ def rule_meaning(words: Words, code: str) -> str:
 
 
 @cache
+def _codes() -> dict[str, str]:
+    return {card.name: card.code for card in cards()}
+
+
+@cache
 def _manuals() -> dict[str, str]:
     return {card.code: card.manual for card in cards()}
 
@@ -177,6 +182,12 @@ def detail_name(words: Words, element: Element, name: str) -> str:
     return label_text(words, name) if element.measure_id in COUNTING else printable(name)
 
 
+def detail_title(words: Words, element: Element, name: str) -> str:
+    """The same for people: a rule by its title."""
+    code = _codes().get(name)
+    return words(f"rules.{code}.title") if code else detail_name(words, element, name)
+
+
 def _told(words: Words, value: object) -> object:
     """Reasons within a reason as their sentences."""
     if isinstance(value, Reason):
@@ -188,10 +199,15 @@ def _told(words: Words, value: object) -> object:
     return value
 
 
+def profile_title(words: Words, record: AuditRecord) -> str:
+    """Title of the profile in the language of the reader where it has one; safe to show."""
+    return printable(record.profile_titles.get(words.language) or record.profile_title or record.profile)
+
+
 def specification(words: Words, record: AuditRecord) -> str:
     """Title and name of the profile, and that it does not come with foparq or was changed, where that is so."""
-    title = record.profile_titles.get(words.language) or record.profile_title or record.profile
-    named = printable(title if title == record.profile else f"{title} ({record.profile})")
+    title = profile_title(words, record)
+    named = title if title == printable(record.profile) else f"{title} ({printable(record.profile)})"
     if not record.profile_shipped:
         files = [source.path for source in record.delivery.sources if source.role == "profile"]
         return words("report.specification.own", title=named, files=files)
@@ -257,6 +273,14 @@ def parameter_name(words: Words, name: str) -> str:
     if name.startswith(_MEASURE):
         return words("report.parameter.measure", id=name.removeprefix(_MEASURE))
     return words.find(f"report.parameter.{name}") or printable(name)
+
+
+_PROBABILITIES = frozenset({"p", "normality-p", "sign-p"})
+
+
+def parameter_value(words: Words, name: str, value: float, unit: str) -> str:
+    """Value of a statistic or tolerance; of a probability never nought."""
+    return words.probability(value) if name in _PROBABILITIES else words.quantity(value, unit)
 
 
 def parameters_sentence(words: Words, parameters: Iterable[tuple[str, float, str]]) -> str:

@@ -11,6 +11,7 @@ import gettext
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 
 from foparq.errors import FoparqError
@@ -28,6 +29,7 @@ _LADDERS = {
     "items": ((float("inf"), "", 1.0, 0),),
     "rad": ((float("inf"), "°", 180 / math.pi, 1),),
 }
+_PROBABILITY = 3  #: decimals of the probability of a test
 MINUS = "\N{MINUS SIGN}"
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -53,7 +55,8 @@ class Words:
         Parameters
         ----------
         message : str
-            ``"domain.id"``.
+            ``"domain.id"``. In its text ``{count:item|items}`` is the first word where the field says one, the other
+            elsewhere, and ``{p:=}`` is ``= 0,204`` or ``< 0,001``.
         **fields : object
             Numbers are written in the manner of the language; a pair (value, unit) is a quantity.
 
@@ -121,7 +124,13 @@ class Words:
         text = self.number(value * factor, decimals)
         if decimals:
             text = text.rstrip("0").rstrip(".,")
-        return f"{text} {name}".rstrip()
+        return f"{text}°" if name == "°" else f"{text} {name}".rstrip()
+
+    def probability(self, value: float) -> str:
+        """Probability of a test: ``"0,204"``; one that would be written as nought as ``"< 0,001"``."""
+        if 0.0 <= value < 10.0**-_PROBABILITY:
+            return f"< {self.number(10.0**-_PROBABILITY, _PROBABILITY)}"
+        return self.number(value, _PROBABILITY).rstrip("0").rstrip(".,")
 
     def column(self, values: Sequence[float]) -> list[str]:
         """Lengths of one column of a table, metres, in the unit of the greatest and with as many decimals each."""
@@ -136,11 +145,30 @@ class Words:
         return self._catalogues[domain]
 
 
-class _Filled(dict[str, str]):
+class _Filled(dict[str, "_Field"]):
     """Fields of a sentence, written in the manner of the language."""
 
     def __init__(self, words: Words, fields: Mapping[str, object]) -> None:
-        super().__init__({name: _write(words, value) for name, value in fields.items()})
+        super().__init__({name: _Field(words, value) for name, value in fields.items()})
+
+
+@dataclass(frozen=True, slots=True)
+class _Field:
+    """One field; ``{n:item|items}`` is the word that goes with it, ``{p:=}`` a probability with its sign."""
+
+    words: Words
+    value: object
+
+    def __format__(self, spec: str) -> str:
+        told = _write(self.words, self.value)
+        if "|" in spec:
+            one, _, many = spec.partition("|")
+            return one if told == "1" else many
+        if spec == "=":
+            number = self.value[0] if isinstance(self.value, tuple) else self.value
+            told = self.words.probability(number) if isinstance(number, float) else told
+            return told if told.startswith("<") else f"= {told}"
+        return format(told, spec)
 
 
 def _write(words: Words, value: object) -> str:

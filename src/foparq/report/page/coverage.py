@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What was checked, and what was not and why, in one language."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from foparq.findings.outcome import Outcome, Status
@@ -42,6 +43,16 @@ class RunView:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ToleranceView:
+    """Tolerances of one rule, and where it was run with them."""
+
+    code: str
+    title: str
+    scopes: tuple[str, ...]
+    told: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SkippedView:
     """Things of one file that no check saw."""
 
@@ -59,6 +70,7 @@ class LookedAt:
 
     ran: tuple[RunView, ...]
     not_run: tuple[RunView, ...]
+    tolerances: tuple[ToleranceView, ...]
     aside: bool  #: some run set items aside
     aside_items: tuple[str, ...]  #: the first of them, with their layers and why
     aside_more: str
@@ -99,6 +111,7 @@ def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -
     return LookedAt(
         ran=tuple(view for run, view in runs if run.status in ended),
         not_run=tuple(view for run, view in runs if run.status not in ended),
+        tolerances=_tolerances([view for run, view in runs if run.status in ended]),
         aside=any(run.skipped for run in told),
         aside_items=tuple(aside)[:_ROWS],
         aside_more=_more(words, len(aside)),
@@ -120,6 +133,17 @@ def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -
         repairs=tuple(repairs[:_ROWS]),
         repairs_more=_more(words, len(repairs)),
         hidden=tuple(_hidden_line(words, picture) for picture in pictures if _hides(picture)),
+    )
+
+
+def _tolerances(runs: Sequence[RunView]) -> tuple[ToleranceView, ...]:
+    alike: dict[tuple[str, str, str], list[str]] = {}
+    for run in runs:
+        if run.tolerances:
+            alike.setdefault((run.code, run.title, run.tolerances), []).append(run.scope)
+    return tuple(
+        ToleranceView(code=code, title=title, scopes=tuple(scopes), told=told)
+        for (code, title, told), scopes in alike.items()
     )
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Findings as the page lists them: by rule, numbered, with anchors that join list and drawing."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
@@ -18,6 +18,7 @@ from foparq.report.sentences import finding_sentences, outcome_scope, parameters
 from foparq.report.words import Words, printable
 
 WRITTEN = 500  #: findings of one rule that the page lists
+FIRST = 20  #: findings of one rule that stand unfolded, and that are printed unless all are asked for
 IN_ALL = 3000  #: findings that the page lists before every rule gets less
 RANK = {severity.value: rank for rank, severity in enumerate(Severity)}  #: 0 is gravest
 
@@ -47,6 +48,7 @@ class RowView:
     number: int
     anchor: str
     mark: str  #: anchor of its mark in the drawing; ``""`` if it has no place
+    plate: str  #: number of the plate that bears its number; ``""`` if none does
     place: str
     source: str
     layer: str
@@ -135,6 +137,7 @@ class Listing:
     sheet: Reals  #: (n, 2) place of the mark, metres on the sheet
     drawings: dict[str, Drawing]
     ways: Callable[[Index], tuple[list[str], list[str]]]  #: how to find the items of some rows
+    on_plate: Mapping[int, int] = field(default_factory=dict)  #: row to the plate that bears its number
 
 
 def listing_of(record: AuditRecord) -> Listing:
@@ -228,6 +231,7 @@ def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str
         number=number,
         anchor=f"f-{name}{suffix}",
         mark=f"m-{name}{suffix}" if marked else "",
+        plate=str(listing.on_plate.get(row, "")),
         place=_place(listing, row),
         source=printable(str(findings.source[row])),
         layer=printable(str(findings.layer[row])),

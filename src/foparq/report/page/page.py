@@ -3,7 +3,7 @@
 
 import base64
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -14,11 +14,14 @@ from foparq.findings.table import Severity
 from foparq.model.items import Role
 from foparq.model.plane import Plane
 from foparq.report.contract import contract_facts
+from foparq.report.page.bar import scale_bar
 from foparq.report.page.completeness import CompletenessView, FeatureNumber, completeness_view, feature_numbers
 from foparq.report.page.coverage import LookedAt, coverage
 from foparq.report.page.drawing import GROUPS, Picture, picture_of
-from foparq.report.page.findings import GroupView, Listing, group_view, listing_of, shown_rows
+from foparq.report.page.findings import FIRST, GroupView, Listing, group_view, listing_of, shown_rows
 from foparq.report.page.marks import MarkView, mark_views
+from foparq.report.page.plate_views import PlateView, on_paper, plate_view
+from foparq.report.page.plates import Plates, plates_of
 from foparq.report.page.residuals import ResidualsView, Vector, residual_views, vectors
 from foparq.report.page.tables import ElementView, Headline, InputView, element_views, headline, input_views
 from foparq.report.record import AuditRecord
@@ -38,6 +41,7 @@ class FigureView:
     about: str
     notes: tuple[str, ...]
     marks: tuple[MarkView, ...]
+    on_paper: str  #: which plates bear the numbers of the marks, and how many have none; ``""`` without marks
     vectors: tuple[Vector, ...]  #: differences of the checkpoints, enlarged
     numbers: tuple[FeatureNumber, ...]  #: of features that a person has to count
     bar: tuple[float, str]  #: length of the scale bar as a share of the width, and its lettering
@@ -56,9 +60,11 @@ class View:
     residuals: tuple[ResidualsView, ...]
     completeness: CompletenessView | None  #: none where nothing was compared
     figures: tuple[FigureView, ...]
+    plates: tuple[PlateView, ...]
     faults: tuple[GroupView, ...]
     notes: tuple[GroupView, ...]
     coverage: LookedAt
+    methods: bool  #: there are parameters to tell
     inputs: tuple[InputView, ...]
 
 
@@ -87,8 +93,10 @@ def page(record: AuditRecord) -> str:
             picture_of(drawing, number, record.findings, shown, record.quality)
             for number, drawing in enumerate(record.delivery.drawings, start=1)
         )
+        plates = plates_of(listing, pictures)
+    listing = replace(listing, on_plate=plates.of_row)
     languages = sorted(LANGUAGES, key=lambda language: language != record.language)
-    views = [_view(record, listing, pictures, language, languages[0]) for language in languages]
+    views = [_view(record, listing, pictures, plates, language, languages[0]) for language in languages]
     return (
         environment("page")
         .get_template("page.html.j2")
@@ -96,6 +104,9 @@ def page(record: AuditRecord) -> str:
             record=record,
             views=views,
             pictures=pictures,
+            plates=plates.plates,
+            plated={plate.picture.number for plate in plates.plates},
+            first=FIRST,
             severities=[severity.value for severity in Severity],
             groups=GROUPS,
             style_hash=_hash("page.css"),
@@ -111,8 +122,11 @@ def _hash(name: str) -> str:
     return f"sha256-{base64.b64encode(digest).decode('ascii')}"
 
 
-def _view(record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], language: str, first: str) -> View:
+def _view(
+    record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], plates: Plates, language: str, first: str
+) -> View:
     words = Words(language)
+    elements, looked_at = element_views(words, record), coverage(words, record, pictures)
     suffix = "" if language == first else f"--{language[:2]}"
     view = partial(group_view, words, listing, suffix=suffix)
     return View(
@@ -121,18 +135,22 @@ def _view(record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], 
         suffix=suffix,
         contract=contract_facts(words, record),
         headline=headline(words, record, listing.groups, suffix),
-        elements=element_views(words, record),
+        elements=elements,
         residuals=residual_views(words, record, pictures),
         completeness=completeness_view(words, record.quality),
-        figures=tuple(_figure(words, record, listing, picture, suffix) for picture in pictures),
+        figures=tuple(_figure(words, record, listing, picture, plates, suffix) for picture in pictures),
+        plates=tuple(plate_view(words, plate) for plate in plates.plates),
         faults=tuple(view(group) for group in listing.groups if group.severity != Severity.NOTE),
         notes=tuple(view(group) for group in listing.groups if group.severity == Severity.NOTE),
-        coverage=coverage(words, record, pictures),
+        coverage=looked_at,
+        methods=bool(elements or looked_at.tolerances),
         inputs=input_views(words, record.delivery.sources),
     )
 
 
-def _figure(words: Words, record: AuditRecord, listing: Listing, picture: Picture, suffix: str) -> FigureView:
+def _figure(
+    words: Words, record: AuditRecord, listing: Listing, picture: Picture, plates: Plates, suffix: str
+) -> FigureView:
     drawing = picture.drawing
     about: dict[str, Any] = {
         "items": words.count(len(drawing.items)),
@@ -144,7 +162,7 @@ def _figure(words: Words, record: AuditRecord, listing: Listing, picture: Pictur
     marks = mark_views(words, listing, picture, suffix)
     arrows, factor = vectors(words, record, picture)
     notes = _notes(words, listing, picture, len(marks))
-    bar = _bar(words, picture)
+    bar = scale_bar(words, picture, picture.width)
     if arrows:
         true = bar[0] * picture.width * picture.quantum / factor
         told = words("report.residuals.vectors", factor=words.count(factor), length=bar[1], true=(true, "m"))
@@ -157,6 +175,7 @@ def _figure(words: Words, record: AuditRecord, listing: Listing, picture: Pictur
         picture=picture,
         file=printable(drawing.path),
         marks=marks,
+        on_paper=on_paper(words, plates, picture),
         vectors=arrows,
         numbers=numbers,
         bar=bar,
@@ -217,21 +236,3 @@ def _axis(words: Words, along: list[float]) -> str:
         if abs(abs(part) - 1.0) < _ALONG:
             return f"{'+' if part > 0 else MINUS}{name}"
     return "({})".format("; ".join(words.number(part, 2) for part in along))
-
-
-def _bar(words: Words, picture: Picture) -> tuple[float, str]:
-    """Scale bar: the largest of 1, 2, 5 times a power of ten that takes at most a fifth of the width."""
-    width = picture.width * picture.quantum
-    decade = 10.0 ** np.floor(np.log10(width / 5))
-    length = float(max(step * decade for step in (1, 2, 5) if step * decade <= width / 5))
-    if picture.drawing.unit.metres is None:
-        return length / width, f"{length:g} {words('report.drawing.unit-bar')}"
-    return length / width, bar_text(words, length)
-
-
-def bar_text(words: Words, metres: float) -> str:
-    """Round length without needless decimals: ``"5 m"``, ``"20 cm"``, ``"2 mm"``."""
-    for name, length in (("km", 1000.0), ("m", 1.0), ("cm", 0.01), ("mm", 0.001)):
-        if metres >= length * 0.999:
-            return f"{words.count(round(metres / length))} {name}"
-    return words.quantity(metres, "m")

@@ -13,10 +13,12 @@ from foparq.report.page.findings import Group
 from foparq.report.page.mending import Cause, causes_of, tasks_of
 from foparq.report.record import AuditRecord
 from foparq.report.sentences import (
-    detail_name,
+    detail_title,
     element_kind,
     element_title,
     parameter_name,
+    parameter_value,
+    profile_title,
     reason_sentence,
     scale_text,
     source_sentence,
@@ -116,7 +118,7 @@ def title(words: Words, record: AuditRecord) -> str:
 
 def _judged(words: Words, record: AuditRecord) -> tuple[str, str]:
     verdict = record.quality.verdict
-    sentence = words(f"report.headline.{verdict.value}", profile=printable(record.profile_title or record.profile))
+    sentence = words(f"report.headline.{verdict.value}", profile=profile_title(words, record))
     return verdict.value, sentence if record.profile_shipped else f"{sentence} {words('report.headline.own-profile')}"
 
 
@@ -188,7 +190,8 @@ def _element_view(words: Words, element: Element) -> ElementView:
     sign = {"<=": "≤", ">=": "≥"}.get(element.comparison, element.comparison)
     limit = "" if element.limit is None else f"{sign} {words.quantity(element.limit, element.unit)}"
     parameters = [
-        (parameter_name(words, name), words.quantity(value, unit)) for name, value, unit in element.parameters
+        (parameter_name(words, name), parameter_value(words, name, value, unit))
+        for name, value, unit in element.parameters
     ]
     return ElementView(
         id=printable(element.id),
@@ -207,13 +210,13 @@ def _element_view(words: Words, element: Element) -> ElementView:
             *parameters,
             (words("report.elements.method"), words(f"report.method.{element.method}")),
         ),
-        details=tuple((detail_name(words, element, name), _share(words, *of)) for name, *of in element.details),
+        details=tuple((detail_title(words, element, name), _share(words, *of)) for name, *of in element.details),
     )
 
 
 def _measure(words: Words, element: Element) -> str:
     name = words.find(f"evaluate.measure.{element.measure_id}") or printable(element.measure_name)
-    return f"{name} ({printable(element.measure_id)})"
+    return f"{name} ({element.measure_id})" if element.measure_id.isdecimal() else name
 
 
 def _value(words: Words, element: Element) -> str:
@@ -221,9 +224,10 @@ def _value(words: Words, element: Element) -> str:
     if element.value is None:
         return "–"
     other = [value for name, value, _ in element.parameters if name in _OTHER_RATES]
-    told = "–".join(words.quantity(value, element.unit) for value in sorted([element.value, *other]))
     symbol = f"report.symbol.{element.measure_id}"
-    return words(symbol, value=told) if words.find(symbol) else told
+    if words.find(symbol):
+        return words(symbol, value=(element.value, element.unit))
+    return "–".join(words.quantity(value, element.unit) for value in sorted([element.value, *other]))
 
 
 def _share(words: Words, found: float, out_of: float) -> str:
