@@ -11,6 +11,7 @@ from tests.attacks import (  # noqa: F401 - enter their attacks
     marks,
     outvoting,
     placing,
+    references,
     repetition,
     statements,
 )
