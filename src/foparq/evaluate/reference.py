@@ -8,6 +8,11 @@ from foparq.evaluate.quality import Reason, because
 from foparq.match.causes import UNIT_FACTORS, by_axes_or_unit, by_unit
 from foparq.profile.elements import AXES
 
+#: whether axes are exchanged, and whether the unit is another
+_SLIPS = {
+    (True, False): "evidence.reference-axes", (False, True): "evidence.reference-unit",
+    (True, True): "evidence.reference-unit-axes",
+}  # fmt: skip
 _AXES = 2  #: that a flat drawing has
 _NEAR = 0.01  #: share of the extent of the delivered points within which a surveyed one is theirs
 
@@ -39,10 +44,8 @@ def other_coordinates(surveyed: Coordinates, delivered: Coordinates, name: str) 
     ):
         return ()
     axes = [f"{AXES[k]} = {AXES[own]}" for k, own in enumerate(cause.axes) if own != k]
-    message = {(True, False): "axes", (False, True): "unit"}.get((bool(axes), cause.factor != 1.0), "unit-axes")
-    return (
-        because(f"evidence.reference-{message}", element=name, n=len(there), axes=axes, factor=f"{cause.factor:.6g}"),
-    )
+    message = _SLIPS[bool(axes), cause.factor != 1.0]
+    return (because(message, element=name, n=len(there), axes=axes, factor=f"{cause.factor:.6g}"),)
 
 
 def other_lengths(measured: Reals, delivered: Reals, name: str) -> tuple[Reason, ...]:
