@@ -38,6 +38,22 @@ def test_what_is_no_length(text: object) -> None:
     assert error.value.fields["example"]
 
 
+@pytest.mark.parametrize("number", ["1.500", "3,000", "12.000", "1.234.567", "100,250"])
+def test_a_number_with_three_digits_behind_its_sign_is_no_quantity(number: str) -> None:
+    with pytest.raises(QuantityError, match="thousands"):
+        parse_quantity(f"{number} mm", "m")
+    with pytest.raises(QuantityError, match="thousands"):
+        parse_scale(f"1:{number}")
+
+
+@pytest.mark.parametrize(
+    ("number", "metres"), [("0.500", 0.5), ("1.5", 1.5), ("1,50", 1.5), ("1.5000", 1.5), ("1500", 1500)]
+)
+def test_any_other_number_is_one(number: str, metres: float) -> None:
+    assert parse_quantity(f"{number} m", "m").si() == metres
+    assert parse_scale(f"1:{number}") == metres
+
+
 def test_an_area_is_no_length() -> None:
     with pytest.raises(QuantityError, match="wrong-unit"):
         parse_quantity("1 m2", "m")

@@ -75,6 +75,8 @@ _SYMBOLS = {"m": LENGTHS, "m2": _AREAS, "1": _RATIOS, "items": _COUNTS, "rad": _
 _QUANTITY = re.compile(
     r"^\s*(?P<number>[+-]?[0-9]+(?:[.,][0-9]+)?(?:[eE][+-]?[0-9]+)?)\s*(?P<unit>[^\s@\d]+[²2]?)\s*(?P<scale>@\s*scale)?\s*$"
 )
+#: a separator of thousands as good as one of decimals
+_GROUPED = re.compile(r"(?<![\d.,])[1-9]\d{0,2}(?:[.,]\d{3})+(?!\d)")
 _SCALE = re.compile(r"^\s*1\s*[:/]\s*(?P<denominator>[0-9]+(?:[.,][0-9]+)?)\s*$")
 
 
@@ -165,6 +167,7 @@ def parse_quantity(text: object, symbol: str) -> Quantity:
     example = {"m": "0.2 mm @ scale", "m2": "1 m2", "1": "10 %", "items": "5 items", "rad": "15 deg"}[symbol]
     if not isinstance(text, str):
         raise QuantityError("quantity.bare-number", value=text, example=example)
+    _refuse_thousands(text, example)
     found = _QUANTITY.match(text)
     if found is None:
         raise QuantityError("quantity.not-understood", value=text, example=example)
@@ -201,11 +204,19 @@ def parse_scale(text: object) -> float:
     >>> parse_scale("1:50")
     50.0
     """
+    if isinstance(text, str):
+        _refuse_thousands(text, "1:50")
     found = _SCALE.match(text) if isinstance(text, str) else None
     denominator = float(found["denominator"].replace(",", ".")) if found else 0.0
     if not 0 < denominator < math.inf:
         raise QuantityError("quantity.not-a-scale", value=text, example="1:50")
     return denominator
+
+
+def _refuse_thousands(text: str, example: str) -> None:
+    """A number of 1.000 is one or a thousand: nobody is asked to guess."""
+    if _GROUPED.search(text):
+        raise QuantityError("quantity.thousands", value=text, example=example)
 
 
 def parse_length_unit(text: str) -> float:
@@ -233,13 +244,24 @@ def parse_length_unit(text: str) -> float:
     return length.si()
 
 
+def unit_named(word: str) -> str:
+    """Symbol of the unit of length that a word means, whatever its case, accents and plural; ``""`` if it is none.
+
+    Examples
+    --------
+    >>> unit_named("Milímetros"), unit_named("MM"), unit_named("desenho")
+    ('mm', 'mm', '')
+    """
+    letters = unicodedata.normalize("NFD", word.strip().strip(".").casefold())
+    plain = "".join(letter for letter in letters if not unicodedata.combining(letter))
+    forms = {plain, plain.removesuffix("s")}
+    return next((unit for unit, words in _WORDS.items() if unit in forms or not forms.isdisjoint(words)), "")
+
+
 def _unknown_unit(text: str) -> QuantityError:
     """Error that shows the symbol which a word means first."""
-    letters = unicodedata.normalize("NFD", text.strip().strip(".").casefold())
-    word = "".join(letter for letter in letters if not unicodedata.combining(letter))
-    forms = {word, word.removesuffix("s")}
-    meant = next((unit for unit, words in _WORDS.items() if unit in forms or not forms.isdisjoint(words)), None)
-    known = [*([meant] if meant else []), *(unit for unit in LENGTHS if unit != meant)]
+    meant = unit_named(text)
+    known = [*filter(None, [meant]), *(unit for unit in LENGTHS if unit != meant)]
     return QuantityError("quantity.unknown-unit", value=text, known=", ".join(known), example=meant or "m")
 
 

@@ -9,7 +9,7 @@ import pyogrio
 import shapely
 from tests.attacks.evidence import IN_SPACE
 from tests.attacks.kinds import CLEAR, DXF, TOLD, attack
-from tests.tools.offices import METRES, Office
+from tests.tools.offices import FRAMES, METRES, Office
 
 _UNIT = ("checks.unit-contradicted", "features.unit-contradicted")
 _PLANE = ("checks.plane-contradicted", "features.plane-contradicted", "checks.plane-doubtful")
@@ -105,6 +105,23 @@ def _plane(office: Office, rng: np.random.Generator) -> Office:
 @attack("plane wrong, side facade", *_PLANE, office={**TOLD, "plane": "yz"})
 def _side_plane(office: Office, rng: np.random.Generator) -> Office:
     return office.state("drawing", plane=str(rng.choice(["xy", "xz"])))
+
+
+def _turned(office: Office, degrees: float) -> list[list[float]]:
+    """A plane by its axes, turned about the upright one."""
+    right, up, depth = FRAMES[office.plane]
+    turn = np.radians(degrees)
+    return [office.origin.tolist(), (right * np.cos(turn) + depth * np.sin(turn)).tolist(), up.tolist()]
+
+
+@attack("plane by its axes wrong", *_PLANE, office=IN_SPACE)
+def _plane_by_axes(office: Office, rng: np.random.Generator) -> Office:
+    return office.state("drawing", plane=_turned(office, float(rng.choice([-1, 1]) * rng.uniform(55, 125))))
+
+
+@attack("plane by its axes right", verdict="accepted", office=IN_SPACE)
+def _right_axes(office: Office, _: np.random.Generator) -> Office:
+    return office.state("drawing", plane=_turned(office, 0.0))
 
 
 @attack("flat drawing stated as an elevation", *_PLANE, office={**TOLD, "plane": "xy"})

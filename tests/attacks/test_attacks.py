@@ -12,6 +12,7 @@ from tests.attacks import (  # noqa: F401 - enter their attacks
     marks,
     outvoting,
     placing,
+    references,
     repetition,
     statements,
 )

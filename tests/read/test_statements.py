@@ -42,3 +42,11 @@ def test_a_slip_is_told_with_what_would_be_right(what: str, value: str, path: st
         confirmed(manifest(what, value, path), "delivery.toml")
     assert caught.value.fields["example"] == example
     assert caught.value.fields["key"] == f"confirmed.{what}"
+
+
+def test_a_plane_of_axes_is_confirmed_as_given() -> None:
+    drawing = {"path": "a.dxf", "plane": [[0, 0, 0], [0.6, 0.8, 0], [0, 0, 1]]}
+    one = {"what": "plane", "value": "Given", "by": "a name", "reason": "a reason"}
+    made = Manifest.model_validate({"drawing": [drawing], "confirmed": [one]})
+    confirmed(made, "delivery.toml")
+    assert confirms(made.confirmed[0], made.drawing[0])

@@ -70,8 +70,24 @@ def test_a_unit_in_the_header_must_be_that_of_the_section(tmp_path: Path) -> Non
         with pytest.raises(UnreadableError) as caught:
             read_distances(path, SurveySection(path="t.csv", unit=unit))
         assert caught.value.message == "table.unit"
+    with pytest.raises(UnreadableError) as caught:
+        read_distances(path, SurveySection(path="t.csv"))
+    assert caught.value.message == "table.unit-mixed"
     agreed = table(tmp_path, "id;medida (mm);entregue (folha)\nD1;1234;1233\n")
     assert read_distances(agreed, SurveySection(path="t.csv", unit="mm")).measured.tolist() == [1.234]
+
+
+@pytest.mark.parametrize("head", ["(mm)", "[MM]", "(em mm)", "(desenho, mm)", "(milímetros)", "(mm, desenho)"])
+def test_a_table_is_in_the_unit_of_its_header_where_the_manifest_states_none(tmp_path: Path, head: str) -> None:
+    path = table(tmp_path, f"id;medida (mm);entregue {head}\nD1;1234;1233\n")
+    for section in (SurveySection(path="t.csv"), SurveySection(path="t.csv", unit="mm")):
+        found = read_distances(path, section)
+        assert (found.measured.tolist(), found.delivered.tolist()) == ([1.234], [1.233])
+
+
+def test_a_table_without_a_unit_is_in_metres(tmp_path: Path) -> None:
+    path = table(tmp_path, "id;medida (in loco);entregue (folha)\nD1;1.25;1.24\n")
+    assert read_distances(path, SurveySection(path="t.csv")).measured.tolist() == [1.25]
 
 
 @pytest.mark.parametrize(

@@ -171,8 +171,11 @@ def test_a_flat_drawing_proves_by_the_axis_it_shares(tmp_path: Path) -> None:
     assert len(read_checkpoints(written(tmp_path, checkpoints(POINTS)), METRES, [flat]).id) == 4
 
 
-def test_counts_are_not_concerned(tmp_path: Path) -> None:
-    assert read_feature_list(written(tmp_path, "id;class;count\nA;tile;1.000\n")).count.tolist() == [1]
+@pytest.mark.parametrize("count", ["1.000", "12,000"])
+def test_a_count_is_not_read_in_two_ways_either(tmp_path: Path, count: str) -> None:
+    with pytest.raises(UnreadableError, match=r"table\.not-a-count"):
+        read_feature_list(written(tmp_path, f"id;class;count\nA;tile;{count}\n"))
+    assert read_feature_list(written(tmp_path, "id;class;count\nA;tile;1.00\n")).count.tolist() == [1]
 
 
 def delivered(folder: Path, table: str, unit: str | None, *, stray: bool = False) -> Delivery:

@@ -146,7 +146,7 @@ def test_a_decimal_comma_between_commas_is_a_ragged_row(tmp_path: Path) -> None:
         (b"id;x;y\nP1;1;2\n", "table.column-missing"),
         (b"id;x;X (m);y;z\nP1;1;1;2;3\n", "table.column-twice"),
         (b'id;x;y;z\nP1;"1;2;3\n', "table.broken"),
-        (b"id;x (mm);y;z\nP1;1;2;3\n", "table.unit"),
+        (b"id;x (mm);y;z\nP1;1;2;3\n", "table.unit-mixed"),
     ],
 )
 def test_what_is_no_such_table_is_refused(tmp_path: Path, data: bytes, message: str) -> None:
@@ -190,6 +190,7 @@ def test_left_out_columns_have_their_defaults(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("row", "message", "key"),
     [
+        ("A;window;12.000;;;", "table.not-a-count", "count"),
         ("A;window;-1;;;", "table.not-a-count", "count"),
         ("A;window;1.5;;;", "table.not-a-count", "count"),
         ("A;window;many;;;", "table.not-a-count", "count"),

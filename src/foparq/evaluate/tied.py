@@ -13,6 +13,7 @@ from foparq.columns import Flags, Index, Reals, Texts
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.facades import facade_doubts, unnamed_remark
 from foparq.evaluate.quality import Reason, because, some
+from foparq.evaluate.reference import other_coordinates, other_lengths
 from foparq.findings.because import Because
 from foparq.findings.ties import DistanceTies, Ends, Lies, PointTies
 from foparq.match.causes import Cause
@@ -75,7 +76,8 @@ def tied_points(points: Checkpoints, evidence: Evidence, name: str, *, fewest: i
             beyond = absent[~counted[absent].any(axis=1)]
             if len(beyond):
                 doubts = (*doubts, _naming("evidence.beyond", name, points.id[beyond], total=len(points.id)))
-    doubts = (*doubts, *facade_doubts(ties, counted, name, fewest))
+    slips = other_coordinates(points.surveyed, ties.delivered, name)
+    doubts = (*slips, *doubts, *facade_doubts(ties, counted, name, fewest))
     remarks += unnamed_remark(ties, counted, name)
     return Tied(rows, every[rows], doubts, tuple(remarks))
 
@@ -101,7 +103,8 @@ def tied_distances(distances: Distances, evidence: Evidence, name: str) -> Tied:
         # Ends that are in the drawing are drawn: lengths that contradict them stay a doubt.
         drawn = ties.ends == Ends.OTHER_LENGTH
         ties = replace(ties, ends=np.where(drawn, ties.ends, str(Ends.NAMES)))
-    return Tied(rows, every[rows], _not_of_drawing(distances, ties, name), tuple(remarks))
+    doubts = (*other_lengths(distances.measured, ties.delivered, name), *_not_of_drawing(distances, ties, name))
+    return Tied(rows, every[rows], doubts, tuple(remarks))
 
 
 def too_small(found: Reals, survey_sd: float | None, resolution: float, name: str) -> tuple[Reason | None, bool]:

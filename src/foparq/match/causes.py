@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from foparq.columns import Coordinates, Flags, Index, Reals
+from foparq.units import LENGTHS
 
 Holds = Callable[[Coordinates], Flags]  #: whether the linework holds points (n, 3), as (n,)
 
@@ -19,6 +20,10 @@ _ANCHORS = 6  #: pairs of points that are tried
 _TRIED = 50  #: proposals of one pair that are looked at closely
 _MOST_PAIRS = 2_000_000  #: pairs of vertices that one search may look at
 _SCALES = (0.5, 2.0)  #: a factor beyond is a unit, not a slip
+_SAME_FACTOR = 0.05  #: of lengths in another unit, whatever their own errors
+_UNITS = ("m", "mm", "cm", "in", "ft", "km")
+#: factors that a table in another unit is off by
+UNIT_FACTORS = tuple(sorted({LENGTHS[a] / LENGTHS[b] for a in _UNITS for b in _UNITS if a != b}))
 
 
 class Cause(NamedTuple):
@@ -50,6 +55,28 @@ def by_axes_or_unit(points: Coordinates, factors: tuple[float, ...], holds: Hold
             if (factor != 1.0 or (x, y, z) != (0, 1, 2)) and holds(points[:, (x, y, z)] * factor).all():
                 return Cause("axes" if factor == 1.0 else "unit", axes=(x, y, z), factor=factor)
     return None
+
+
+def by_unit(lengths: Reals, others: Reals, factors: tuple[float, ...]) -> float:
+    """Factor of a wrong unit with which all lengths are the others; 1 if there is none, or fewer than three lengths.
+
+    Parameters
+    ----------
+    lengths, others : (n,)
+        Greater than zero.
+    factors : tuple of float
+        Factors that a wrong unit can be.
+
+    Examples
+    --------
+    >>> by_unit(np.array([201.0, 150.0, 333.0]), np.array([2.0, 1.5, 3.3]), UNIT_FACTORS)
+    0.01
+    """
+    if len(lengths) < _FEWEST:
+        return 1.0
+    ratio = others / lengths
+    fits = [f for f in factors if not _SCALES[0] < f < _SCALES[1] and (np.abs(ratio / f - 1) <= _SAME_FACTOR).all()]
+    return min(fits, key=lambda factor: float(np.abs(ratio / factor - 1).max()), default=1.0)
 
 
 def by_place_or_size(points: Coordinates, vertices: Coordinates, *, within: float, holds: Holds) -> Cause | None:

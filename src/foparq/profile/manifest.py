@@ -71,7 +71,7 @@ class SurveySection(TableSection):
     """``[checkpoints]`` and ``[distances]``: a table and how well it was surveyed."""
 
     survey_sd: LengthOnObject | None = None
-    unit: UnitName = "m"
+    unit: UnitName | None = None  #: of its numbers; else that of its header, else metres
 
 
 def _said(text: object) -> str:

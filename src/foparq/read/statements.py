@@ -9,6 +9,7 @@ from foparq.names import folded
 from foparq.profile.manifest import ConfirmedSection, DrawingSection, Manifest
 
 _NOT_DRAWN = "not drawn"
+_BY_AXES = "given"  #: a plane of an origin and two axes
 
 
 def confirmed(manifest: Manifest, file: str) -> tuple[Confirmation, ...]:
@@ -37,9 +38,14 @@ def confirmed(manifest: Manifest, file: str) -> tuple[Confirmation, ...]:
 
 def confirms(one: ConfirmedSection, section: DrawingSection) -> bool:
     """Whether a person confirms what the manifest states of a drawing."""
-    stated = {"unit": section.unit, "plane": section.plane}.get(one.what)
-    same = isinstance(stated, str) and folded(stated) == folded(one.value)
-    return same and _speaks_of(one, section)
+    stated = _value(section, one.what) if one.what in {"unit", "plane"} else ""
+    return bool(stated) and folded(stated) == folded(one.value) and _speaks_of(one, section)
+
+
+def _value(section: DrawingSection, what: str) -> str:
+    """What the manifest states, as a person repeats it; ``""`` if it states nothing."""
+    value = getattr(section, what)
+    return _BY_AXES if isinstance(value, tuple) else value or ""
 
 
 def _stated(one: ConfirmedSection, manifest: Manifest) -> list[str] | None:
@@ -48,7 +54,7 @@ def _stated(one: ConfirmedSection, manifest: Manifest) -> list[str] | None:
         return [_NOT_DRAWN]
     if one.what in {"unit", "plane", "facade"}:
         drawings = [section for section in manifest.drawing if _speaks_of(one, section)]
-        return [value for section in drawings if isinstance(value := getattr(section, one.what), str) and value]
+        return [value for section in drawings if (value := _value(section, one.what))]
     return None
 
 

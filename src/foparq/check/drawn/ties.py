@@ -15,16 +15,11 @@ from foparq.check.drawn.ground import Ground, Nearness, ground_of
 from foparq.check.drawn.made import mostly, only_for_points
 from foparq.columns import Coordinates, Flags, Reals, Texts
 from foparq.findings.ties import Lies, PointTies, Ties
-from foparq.match.causes import Cause, by_axes_or_unit, by_place_or_size
+from foparq.match.causes import UNIT_FACTORS, Cause, by_axes_or_unit, by_place_or_size
 from foparq.match.linework import NOTHING, footing
 from foparq.match.repeats import repeats
 from foparq.model.delivery import Delivery
 from foparq.model.tables import Checkpoints
-from foparq.units import LENGTHS
-
-_UNITS = ("m", "mm", "cm", "in", "ft", "km")
-#: factors that a table in another unit is off by
-_FACTORS = tuple(sorted({LENGTHS[a] / LENGTHS[b] for a in _UNITS for b in _UNITS if a != b}))
 
 
 def tie_evidence(delivery: Delivery, near: Nearness) -> Ties:
@@ -201,7 +196,7 @@ def _cause_on(ground: Ground, places: Coordinates, bearing: Coordinates, within:
         lies = footing(moved, ground.every, within=every, deep=ground.deep).line != NOTHING
         return lies | _at(ground, moved, bearing, within)
 
-    return by_axes_or_unit(places, _FACTORS, in_file) or by_place_or_size(
+    return by_axes_or_unit(places, UNIT_FACTORS, in_file) or by_place_or_size(
         ground.on_sheet(places), ground.corners(every=True), within=within, holds=on_sheet
     )
 

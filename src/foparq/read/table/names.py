@@ -9,7 +9,7 @@ import unicodedata
 from collections.abc import Mapping, Sequence
 from functools import cache
 
-from foparq.units import LENGTHS
+from foparq.units import unit_named
 
 Names = Mapping[str, Sequence[str]]  #: our name of a column to the names that people give it
 
@@ -112,13 +112,21 @@ _USES: Names = {
     "prohibited": ("prohibited", "forbidden", "proibido", "proibida", "vedado", "vedada", "prohibido", "prohibida"),
 }  # fmt: skip
 _IN_BRACKETS = re.compile(r"[(\[]\s*([^)\]]+?)\s*[)\]]\s*$")
+_BETWEEN = re.compile(r"[\s,;/]+")  #: words in these brackets
 _SHORTEST_PLURAL = 4  #: letters
 
 
 def unit_in_header(name: str) -> str:
-    """Unit that a column's name carries in brackets: ``"mm"`` of ``"X (mm)"``; ``""`` if none."""
+    """Unit that a column's name carries in brackets: ``"mm"`` of ``"X (mm)"``; ``""`` if none.
+
+    Examples
+    --------
+    >>> unit_in_header("Medida (desenho, MM)"), unit_in_header("X [em metros]"), unit_in_header("Medida (in loco)")
+    ('mm', 'm', '')
+    """
     found = _IN_BRACKETS.search(name)
-    return found[1] if found and found[1] in LENGTHS else ""
+    words = [part.split()[-1:] for part in re.split("[,;/]", found[1])] if found else []
+    return next((unit for word in words if (unit := unit_named(*word or [""]))), "")
 
 
 def column_of(name: str, ours: Mapping[str, str]) -> str | None:
@@ -137,7 +145,7 @@ def column_of(name: str, ours: Mapping[str, str]) -> str | None:
     """
     found = _IN_BRACKETS.search(name)
     if found:
-        said = " ".join(part for part in re.split(r"[\s,;/]+", found[1]) if part not in LENGTHS)
+        said = " ".join(part for part in re.split(_BETWEEN, found[1]) if not unit_named(part))
         if (column := ours.get(plain_word(f"{name[: found.start()]} {said}"))) is not None:
             return column
     return ours.get(plain_name(name))

@@ -14,6 +14,11 @@ from foparq.read.table.sheet import Sheet
 _GROUPED = re.compile(r"^[+\-\u2212]?[1-9]\d{0,2}[.,]\d{3}$")
 
 
+def is_grouped(text: str) -> bool:
+    """Whether a number can be read in two ways: 12.345, twelve and a bit or twelve thousand."""
+    return _GROUPED.match(text) is not None
+
+
 def one_decimal_sign(sheet: Sheet, columns: Sequence[str]) -> None:
     """Refuse a table with both signs: 1.234 beside 1,5, one of the two separates thousands, and nobody can say which.
 
@@ -53,7 +58,7 @@ def doubtful_cells(sheet: Sheet, columns: Sequence[str]) -> dict[str, Flags]:
     doubtful: dict[str, Flags] = {}
     for column in columns:
         texts = [cell if isinstance(cell, str) else "" for cell in sheet.cells(column)]
-        flags = np.array([_GROUPED.match(text) is not None for text in texts], dtype=bool)
+        flags = np.array([is_grouped(text) for text in texts], dtype=bool)
         if any(("." in text or "," in text) and not flag for text, flag in zip(texts, flags, strict=True)):
             return {}
         if flags.any():

@@ -27,7 +27,7 @@ from foparq.read.table.names import (
 from foparq.read.table.numbers import lengths_of, number_of
 from foparq.read.table.places import places_of
 from foparq.read.table.sheet import Asked, Sheet
-from foparq.read.table.signs import doubtful_cells, one_decimal_sign, thousands_fault
+from foparq.read.table.signs import doubtful_cells, is_grouped, one_decimal_sign, thousands_fault
 from foparq.units import parse_length_unit
 
 _SURVEYED, _DELIVERED = ("x", "y", "z"), ("xd", "yd", "zd")
@@ -82,7 +82,7 @@ def read_checkpoints(path: Path, section: SurveySection, extents: Sequence[Exten
     doubtful = doubtful_cells(sheet, (*_SURVEYED, *_DELIVERED))
     axes = [_doubtful(values, doubtful, pair) for pair in zip(_SURVEYED, _DELIVERED, strict=True)]
     if doubtful and not points_are_decimal(axes, extents):
-        raise thousands_fault(sheet, doubtful, section.unit)
+        raise thousands_fault(sheet, doubtful, unit)
     return Checkpoints(
         id=ids,
         surveyed=np.column_stack([values[axis] for axis in _SURVEYED]),
@@ -123,7 +123,7 @@ def read_distances(path: Path, section: SurveySection, extents: Sequence[Extent]
     values, halves = _lengths(sheet, (*_LENGTHS, *_ENDS), unit, required=("measured",))
     doubtful = doubtful_cells(sheet, (*_LENGTHS, *_ENDS))
     if doubtful and not lengths_are_decimal(_doubtful(values, doubtful, _LENGTHS), extents):
-        raise thousands_fault(sheet, doubtful, section.unit)
+        raise thousands_fault(sheet, doubtful, unit)
     for column in _LENGTHS:
         wrong = np.flatnonzero(values[column] <= 0)
         if len(wrong):
@@ -204,17 +204,16 @@ def _sheet(path: Path, asked: Asked, section: TableSection | None) -> Sheet:
     return read_text(path, asked)
 
 
-def _unit(sheet: Sheet, section: SurveySection, columns: Sequence[str]) -> float:
-    # Metres in one unit of the table. A unit in the header that says otherwise is a contradiction, not a correction.
-    stated = parse_length_unit(section.unit)
-    for column in columns:
-        if column in sheet.at:
-            name = sheet.header[sheet.at[column]]
-            said = unit_in_header(name)
-            if said and not math.isclose(parse_length_unit(said), stated):
-                raise UnreadableError(
-                    "table.unit", file=sheet.file, key=name, value=section.unit, example=f'unit = "{said}"'
-                )
+def _unit(sheet: Sheet, section: SurveySection, columns: Sequence[str]) -> str:
+    # Unit of the table. A header that says otherwise than the manifest is a contradiction, not a correction.
+    heads = [sheet.header[sheet.at[column]] for column in columns if column in sheet.at]
+    said = {name: unit for name in heads if (unit := unit_in_header(name))}
+    if section.unit is None and len({said.get(name, "m") for name in heads}) > 1:
+        raise UnreadableError("table.unit-mixed", file=sheet.file, value=", ".join(heads), example='unit = "m"')
+    stated = section.unit or next(iter(said.values()), "m")
+    for name, unit in said.items():
+        if not math.isclose(parse_length_unit(unit), parse_length_unit(stated)):
+            raise UnreadableError("table.unit", file=sheet.file, key=name, value=stated, example=f'unit = "{unit}"')
     return stated
 
 
@@ -235,10 +234,12 @@ def _ids(sheet: Sheet, *, example: str) -> Texts:
 
 
 def _lengths(
-    sheet: Sheet, columns: Sequence[str], unit: float, required: Sequence[str]
+    sheet: Sheet, columns: Sequence[str], unit: str, required: Sequence[str]
 ) -> tuple[dict[str, Reals], dict[str, float]]:
     # Values of each column in metres, and half a unit of its last digit.
-    found = {column: lengths_of(sheet, column, unit, required=column in required) for column in columns}
+    found = {
+        column: lengths_of(sheet, column, parse_length_unit(unit), required=column in required) for column in columns
+    }
     one_decimal_sign(sheet, columns)
     return {name: values for name, (values, _) in found.items()}, {name: half for name, (_, half) in found.items()}
 
@@ -252,7 +253,8 @@ def _counts(sheet: Sheet) -> Index:
     for row, text in enumerate(sheet.texts("count")):
         if not text:
             continue
-        number = None if isinstance(sheet.cells("count")[row], Odd) else number_of(text)
+        cell = sheet.cells("count")[row]
+        number = None if isinstance(cell, Odd) or (isinstance(cell, str) and is_grouped(cell)) else number_of(text)
         if number is None or number.value != number.value.to_integral_value() or not 0 <= number.value < 10**9:
             raise sheet.fault("table.not-a-count", row, "count", example="3")
         counts[row] = int(number.value)
