@@ -102,14 +102,14 @@ def test_a_tolerance_holds_and_printed_digits_are_added() -> None:
 
 
 def test_digits_missing_of_one_axis_hide_no_shift_of_another() -> None:
-    moved = in_space(CORNERS + [0.0, 0.04])
+    moved = in_space(CORNERS + np.array([0.0, 0.04]))
     for axis, found in ((0, False), (1, False), (2, True)):
         told = lies(checkpoints(moved, printed=0.05 * np.eye(3)[axis]), drawing())
         assert (Lies.VERTEX in told) is found
 
 
 def test_the_depth_of_a_flat_drawing_hides_no_shift() -> None:
-    table = np.column_stack([CORNERS + [0.0, 0.04], np.zeros(8)])
+    table = np.column_stack([CORNERS + np.array([0.0, 0.04]), np.zeros(8)])
     assert Lies.VERTEX not in lies(checkpoints(table, printed=np.array([0.0, 0.0, 0.5])), drawing(plane="xy"))
 
 

@@ -193,7 +193,7 @@ def _cause_on(ground: Ground, places: Coordinates, bearing: Coordinates, within:
 
     def on_sheet(moved: Coordinates) -> Flags:
         every = np.full(len(moved), within)
-        lies = footing(moved, ground.every, within=every, deep=ground.deep).line != NOTHING
+        lies: Flags = footing(moved, ground.every, within=every, deep=ground.deep).line != NOTHING
         return lies | _at(ground, moved, bearing, within)
 
     return by_axes_or_unit(places, UNIT_FACTORS, in_file) or by_place_or_size(
@@ -210,7 +210,7 @@ def _beside_corners(ground: Ground, places: Coordinates, bearing: Coordinates, w
     tree = cKDTree(corners[:, :axes])
 
     def at_corners(moved: Coordinates) -> Flags:
-        lies = tree.query(moved[:, :axes])[0] <= within
+        lies: Flags = tree.query(moved[:, :axes])[0] <= within
         return lies | _at(ground, moved, bearing, within)
 
     if 2 * np.count_nonzero(at_corners(sheet)) > len(sheet):
