@@ -195,6 +195,11 @@ def heads(
                     (cross(step[:2], v) / cross(u, v), two.end[0])
                     for u, v in product(one.heads, two.heads) if closes(u, v, step[:2], heading)
                 ]  # fmt: skip
+        own = one.way.way
+        gap, length = float(np.linalg.norm(own[0] - own[-1])), float(np.hypot(*np.diff(own[:, :2], axis=0).T).sum())
+        if hits and gap < min(hits)[0] and length >= aim.remainder * gap - EPS:
+            ends_of_chain = np.flatnonzero(drawing.own == one.way.chain)[[0, -1]]
+            hits = [(gap, int(drawing.piece[ends_of_chain[0 if one.way.last else -1]]))]
         if hits:
             least = min(hits)[0]
             told[one.end] = Told(frozenset([one.end[0]]), least, frozenset(n for on, n in hits if on <= least + EPS))

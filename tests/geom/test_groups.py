@@ -78,13 +78,17 @@ def dashed(rng: Random) -> list[Way]:
 
 
 def bars(rng: Random) -> list[Way]:
-    """Bars that stop up to 60 mm short of hosts and of corners, and litter."""
+    """Bars that stop up to 60 mm short of hosts and of corners, outlines left open, and litter."""
     lines = litter(rng, int(rng.integers(0, 3)), 0.3)
     for _ in range(int(rng.integers(1, 4))):
         host = turned(np.array([[-0.1, 0.0], [0.1, 0.0]]), rng.uniform(0, np.pi)) + rng.uniform(0.05, 0.25, 2)
         angle, gap = rng.uniform(0, 2 * np.pi), rng.uniform(0.0, 0.06)
         way = np.array([np.cos(angle), np.sin(angle)])
         middle = host.mean(axis=0)
+        if rng.random() < 0.3:  # an outline left open before a host
+            turn = np.linspace(0.0, 2 * np.pi * rng.uniform(0.6, 0.97), int(rng.integers(4, 12)))
+            around = rng.uniform(0.01, 0.03) * np.column_stack([np.cos(turn), np.sin(turn)])
+            lines.append(turned(around, rng.uniform(0, 2 * np.pi)) + middle + rng.uniform(-0.05, 0.05, 2))
         lines += [host, np.array([middle + gap * way, middle + (gap + rng.uniform(0.02, 0.1)) * way])]
     return on_grid(lines)
 

@@ -36,7 +36,8 @@ def heading_ends(lines: Polylines, aim: Aim, *, coincide: float, reach: float, h
 
     Notes
     -----
-    O((s + e) log s + near pairs). What runs alongside is not met. Of several lines the first on the way is named.
+    O((s + e) log s + near pairs). What runs alongside is not met. Of several lines the first on the way is named; the
+    own line, if its other end is nearer and the gap is its small remainder: an outline that was left open.
     """
     found = classify_ends(lines, aim, coincide=coincide, reach=reach)
     asked = found.vertex[np.isin(found.kind, [EndKind.FREE, EndKind.BESIDE])]
@@ -47,6 +48,7 @@ def heading_ends(lines: Polylines, aim: Aim, *, coincide: float, reach: float, h
     for way in ends.directions:
         _first_met(ends, way, aim.alongside, heading + lines.slack, least)
     _corners(ends, heading + lines.slack, least)
+    _own_ends(ends, aim.remainder, least)
     vertex = ends.chains.vertex[ends.vertex]
     told = np.flatnonzero(np.isfinite(least.value))
     return Heading(lines.line_of_vertex[vertex[told]], vertex[told], least.value[told], least.line[told])
@@ -86,3 +88,12 @@ def _corners(ends: LooseEnds, heading: float, least: Least) -> None:
                 on, closed = closing(place[j] - place[i], way[i], back[j], heading, lines.slack)
                 rows = np.flatnonzero(closed)
                 least.lower(i[rows], on[rows], ends.given.line_of_vertex[given[j[rows]]])
+
+
+def _own_ends(ends: LooseEnds, remainder: float, least: Least) -> None:
+    """Name the own line where its other end is nearer, and it is longer than so many times the gap."""
+    chains = ends.lines
+    gap, length = chains.opening[ends.line], chains.length[ends.line]
+    nearer = np.flatnonzero((gap < least.value) & np.isfinite(least.value) & (length >= remainder * gap - chains.slack))
+    far = np.where(ends.forward, chains.tails[ends.line], chains.heads[ends.line])[nearer]
+    least.lower(nearer, gap[nearer], ends.given.line_of_vertex[ends.chains.vertex[far]])
