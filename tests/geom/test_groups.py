@@ -73,8 +73,22 @@ def dashed(rng: Random) -> list[Way]:
             way = np.array([np.cos(angle), np.sin(angle)])
             lines.append(np.array([at, at + length * way])[:: int(rng.choice([-1, 1]))])
             at, angle = at + (length + gap * (1 + 0.5 * odd * rng.uniform(-1, 1))) * way, angle + step
+        if rng.random() < 0.4:
+            lines += posts(rng, lines[-count:], gap)
     order = rng.permutation(len(lines))
     return on_grid([lines[n] for n in order])
+
+
+def posts(rng: Random, row: list[Way], gap: float) -> list[Way]:
+    """Lines across a row: in its gaps, across its ends, or anywhere."""
+    inset, often = rng.choice([-0.5 * gap, 0.001]), rng.choice([0.3, 0.6, 1.0])
+    across, made = np.array([[0.0, -0.02], [0.0, 0.02]]), []
+    for line in row:
+        step = line[1] - line[0]
+        length, angle = float(np.hypot(*step)), float(np.arctan2(step[1], step[0]))
+        places = (inset, length - inset) if inset > 0 else (length - inset,)
+        made += [turned(across, angle) + line[0] + step / length * at for at in places if rng.random() < often]
+    return made
 
 
 def bars(rng: Random) -> list[Way]:
