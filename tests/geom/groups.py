@@ -217,10 +217,23 @@ def heads(
                     (cross(step[:2], v) / cross(u, v), two.end[0])
                     for u, v in product(one.heads, two.heads) if closes(u, v, step[:2], heading)
                 ]  # fmt: skip
-        if hits:
-            least = min(hits)[0]
+        least = min(hits, default=(np.inf, 0))[0]
+        if hits and least <= min(_in_line(drawing, one, u, coincide, aim) for u in one.heads) + EPS:
             told[one.end] = Told(frozenset([one.end[0]]), least, frozenset(n for on, n in hits if on <= least + EPS))
     return told
+
+
+def _in_line(drawing: Drawing, one: _Loose, u: NDArray[np.float64], coincide: float, aim: Aim) -> float:
+    """Distance to the first segment that goes the same way and whose nearest place lies straight ahead."""
+    found = [np.inf]
+    for row in one.way.around:
+        start, stop = shapely.get_coordinates(drawing.flat[row])
+        target = start + (stop - start) * np.nan_to_num(share_of(drawing.flat[row], shapely.Point(one.place[:2])))
+        step = target - one.place[:2]
+        turned = abs(cross(u, stop - start)) >= np.sin(aim.alongside) * np.hypot(*(stop - start))
+        if not turned and step @ u > 0 and abs(cross(u, step)) <= coincide + EPS:
+            found.append(float(step @ u))
+    return min(found)
 
 
 def _met(

@@ -99,7 +99,10 @@ def bars(rng: Random) -> list[Way]:
         angle, gap = rng.uniform(0, 2 * np.pi), rng.uniform(0.0, 0.06)
         way = np.array([np.cos(angle), np.sin(angle)])
         middle = host.mean(axis=0)
-        lines += [host, np.array([middle + gap * way, middle + (gap + rng.uniform(0.02, 0.1)) * way])]
+        near, far = middle + gap * way, middle + (gap + rng.uniform(0.02, 0.1)) * way
+        lines += [host, np.array([near, far])]
+        if rng.random() < 0.3:  # what goes on in line
+            lines.append(np.array([far + rng.uniform(0.011, 0.04) * way, far + 0.06 * way]))
     return on_grid(lines)
 
 
