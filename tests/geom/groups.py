@@ -90,11 +90,14 @@ class _Loose(NamedTuple):
 
 
 def _loose(lines: list[Line], coincide: float, reach: float, aim: Aim) -> tuple[Drawing, list[_Loose]]:
-    """Ends of chains that are neither connected nor beyond what they meet."""
+    """Ends of chains that are not connected."""
     drawing, free = chained(lines, coincide)
     deep = Drawing(lines).lines
     ways = {end: oracle.follow(drawing, chain, deep, end, coincide, reach, aim) for end, chain in free.items()}
-    loose = [_Loose(end, way, aims(way.way, coincide, reach)) for end, way in ways.items() if way.settled is None]
+    loose = [
+        _Loose(end, way, aims(way.way, coincide, reach)) for end, way in ways.items()
+        if way.settled is None or way.settled.kind == "overshoot"
+    ]  # fmt: skip
     return drawing, loose
 
 
@@ -131,10 +134,29 @@ def dash_rows(lines: list[Line], *, coincide: float, reach: float, aim: Aim) -> 
         inner = [length[one] for one in row[1:-1]]
         for period in (1, 2, 3):
             alike = all(abs(a - b) <= ALIKE * max(a, b) for a, b in zip(inner, inner[period:], strict=False))
-            if alike and len(row) >= max(FEWEST, 2 * period + 2):
+            if alike and len(row) >= max(FEWEST, 2 * period + 2) and not _cut(drawing, row, joined, loose, coincide):
                 owners = [drawing.piece[drawing.own == one] for one in row]
                 found.add(frozenset(np.concatenate(owners).tolist()))
     return found
+
+
+def _cut(
+    drawing: Drawing, row: list[int], joined: dict[tuple[int, int], float], loose: list[_Loose], coincide: float
+) -> bool:
+    """Whether other linework cuts the row: in most of its gaps and at few of its dashes, or most ends go beyond."""
+    gaps = [(i, j) for i, j in joined if loose[i].way.chain in row]
+    over = sum(loose[i].way.settled is not None for i, _ in gaps)
+    held = 0
+    for gap in gaps:
+        between = shapely.LineString([loose[n].place[:2] for n in gap])
+        held += _is_met(drawing, between, {loose[n].way.chain for n in gap}, coincide)
+    met = sum(_is_met(drawing, shapely.LineString(drawing.lines[one][:, :2]), {one}, coincide) for one in row)
+    return 2 * over > len(gaps) or (2 * held > len(gaps) and 2 * met < len(row))
+
+
+def _is_met(drawing: Drawing, way: shapely.LineString, own: set[int], coincide: float) -> bool:
+    other = ~np.isin(drawing.own, [*own, *drawing.strokes(coincide)])
+    return bool(np.any(shapely.distance(drawing.flat[other], way) <= coincide + EPS))
 
 
 def _heads(one: _Loose, two: _Loose, coincide: float, reach: float, aim: Aim) -> float | None:
@@ -195,15 +217,28 @@ def heads(
                     (cross(step[:2], v) / cross(u, v), two.end[0])
                     for u, v in product(one.heads, two.heads) if closes(u, v, step[:2], heading)
                 ]  # fmt: skip
-        own = one.way.way
-        gap, length = float(np.linalg.norm(own[0] - own[-1])), float(np.hypot(*np.diff(own[:, :2], axis=0).T).sum())
-        if hits and gap < min(hits)[0] and length >= aim.remainder * gap - EPS:
-            ends_of_chain = np.flatnonzero(drawing.own == one.way.chain)[[0, -1]]
-            hits = [(gap, int(drawing.piece[ends_of_chain[0 if one.way.last else -1]]))]
-        if hits:
-            least = min(hits)[0]
+        least = min(hits, default=(np.inf, 0))[0]
+        if hits and least <= min(_in_line(drawing, one, u, coincide, aim) for u in one.heads) + EPS:
+            own = one.way.way
+            gap, length = float(np.linalg.norm(own[0] - own[-1])), float(np.hypot(*np.diff(own[:, :2], axis=0).T).sum())
+            if gap < least and length >= aim.remainder * gap - EPS:
+                ends_of_chain = np.flatnonzero(drawing.own == one.way.chain)[[0, -1]]
+                least, hits = gap, [(gap, int(drawing.piece[ends_of_chain[0 if one.way.last else -1]]))]
             told[one.end] = Told(frozenset([one.end[0]]), least, frozenset(n for on, n in hits if on <= least + EPS))
     return told
+
+
+def _in_line(drawing: Drawing, one: _Loose, u: NDArray[np.float64], coincide: float, aim: Aim) -> float:
+    """Distance to the first segment that goes the same way and whose nearest place lies straight ahead."""
+    found = [np.inf]
+    for row in one.way.around:
+        start, stop = shapely.get_coordinates(drawing.flat[row])
+        target = start + (stop - start) * np.nan_to_num(share_of(drawing.flat[row], shapely.Point(one.place[:2])))
+        step = target - one.place[:2]
+        turned = abs(cross(u, stop - start)) >= np.sin(aim.alongside) * np.hypot(*(stop - start))
+        if not turned and step @ u > 0 and abs(cross(u, step)) <= coincide + EPS:
+            found.append(float(step @ u))
+    return min(found)
 
 
 def _met(

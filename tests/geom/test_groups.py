@@ -73,8 +73,22 @@ def dashed(rng: Random) -> list[Way]:
             way = np.array([np.cos(angle), np.sin(angle)])
             lines.append(np.array([at, at + length * way])[:: int(rng.choice([-1, 1]))])
             at, angle = at + (length + gap * (1 + 0.5 * odd * rng.uniform(-1, 1))) * way, angle + step
+        if rng.random() < 0.4:
+            lines += posts(rng, lines[-count:], gap)
     order = rng.permutation(len(lines))
     return on_grid([lines[n] for n in order])
+
+
+def posts(rng: Random, row: list[Way], gap: float) -> list[Way]:
+    """Lines across a row: in its gaps, across its ends, or anywhere."""
+    inset, often = rng.choice([-0.5 * gap, 0.001]), rng.choice([0.3, 0.6, 1.0])
+    across, made = np.array([[0.0, -0.02], [0.0, 0.02]]), []
+    for line in row:
+        step = line[1] - line[0]
+        length, angle = float(np.hypot(*step)), float(np.arctan2(step[1], step[0]))
+        places = (inset, length - inset) if inset > 0 else (length - inset,)
+        made += [turned(across, angle) + line[0] + step / length * at for at in places if rng.random() < often]
+    return made
 
 
 def bars(rng: Random) -> list[Way]:
@@ -85,11 +99,14 @@ def bars(rng: Random) -> list[Way]:
         angle, gap = rng.uniform(0, 2 * np.pi), rng.uniform(0.0, 0.06)
         way = np.array([np.cos(angle), np.sin(angle)])
         middle = host.mean(axis=0)
+        near, far = middle + gap * way, middle + (gap + rng.uniform(0.02, 0.1)) * way
+        lines += [host, np.array([near, far])]
+        if rng.random() < 0.3:  # what goes on in line
+            lines.append(np.array([far + rng.uniform(0.011, 0.04) * way, far + 0.06 * way]))
         if rng.random() < 0.3:  # an outline left open before a host
             turn = np.linspace(0.0, 2 * np.pi * rng.uniform(0.6, 0.97), int(rng.integers(4, 12)))
             around = rng.uniform(0.01, 0.03) * np.column_stack([np.cos(turn), np.sin(turn)])
             lines.append(turned(around, rng.uniform(0, 2 * np.pi)) + middle + rng.uniform(-0.05, 0.05, 2))
-        lines += [host, np.array([middle + gap * way, middle + (gap + rng.uniform(0.02, 0.1)) * way])]
     return on_grid(lines)
 
 

@@ -8,6 +8,8 @@ import numpy as np
 from foparq.columns import Flags, Index, Reals
 from foparq.geom.chains import NOBODY, in_chains
 from foparq.geom.loose import LooseEnds
+from foparq.geom.polylines import Segments
+from foparq.geom.segments import cannot_meet, contacts
 from foparq.geom.targets import Faced
 
 _FEWEST = 5  #: dashes that make a row
@@ -27,7 +29,7 @@ class Dashes(NamedTuple):
     dash: Index  #: (k,) chain that the dash is
 
 
-def dashes(ends: LooseEnds, pairs: Faced) -> Dashes:
+def dashes(ends: LooseEnds, pairs: Faced, beyond: Flags) -> Dashes:
     """Rows of at least five dashes that head for each other, alike but for the outermost, with equal gaps.
 
     Parameters
@@ -35,11 +37,16 @@ def dashes(ends: LooseEnds, pairs: Faced) -> Dashes:
     ends : LooseEnds, e rows
     pairs : Faced
         Rows of ``ends`` that face each other.
+    beyond : (e,) bool
+        Ends that go beyond what they meet.
 
     Notes
     -----
-    O(e log e). Lengths may alternate in periods of two or three, as those of chain lines do, if at least two periods
-    are seen. Gaps and lengths are alike if they differ by a fifth at most.
+    O((e + s) log s + near pairs). Lengths may alternate in periods of two or three, as those of chain lines do, if at
+    least two periods are seen. Gaps and lengths are alike if they differ by a fifth at most. Pieces with other linework
+    between them do not head for each other. A row is none, but a line cut at bars that it should meet, if other
+    linework lies in more than half of its gaps and meets fewer than half of its dashes, or if more than half of the
+    ends at its gaps go beyond what they meet.
     """
     mate, gap = _mates(ends, pairs)
     length, line = ends.lines.length, np.arange(len(mate)) // 2
@@ -51,14 +58,46 @@ def dashes(ends: LooseEnds, pairs: Faced) -> Dashes:
     label, place, _ = in_chains(mate)
     order = np.lexsort((place, label))
     order = order[_in_rows(label[order], length[order])]
-    row = np.unique(label[order], return_inverse=True)[1].reshape(-1)
     slot = 2 * ends.line + ~ends.forward
     end_of = np.full(len(mate), NOBODY, dtype=np.intp)
     end_of[slot] = np.arange(len(ends))
+    order = order[~_cut_at_others(ends, beyond, label, order, end_of, mate)[label[order]]]
+    row = np.unique(label[order], return_inverse=True)[1].reshape(-1)
     among = np.zeros(len(ends.lines), dtype=bool)
     among[order] = True
     end = np.flatnonzero(among[ends.line] & (mate[slot] != NOBODY))
     return Dashes(end, end_of[mate[slot[end]]], gap[slot[end]], row, order)
+
+
+def _cut_at_others(ends: LooseEnds, beyond: Flags, label: Index, chain: Index, end_of: Index, mate: Index) -> Flags:
+    """True for each label of chains that other linework cuts, see :func:`dashes`."""
+    asked = np.isin(np.arange(len(mate)) // 2, chain) & (mate > np.arange(len(mate)))
+    one, two = end_of[np.flatnonzero(asked)], end_of[mate[asked]]
+    gaps = Segments(ends.place[one], ends.place[two], ends.depth[one], ends.depth[two])
+    held = _meets(ends, gaps, np.stack([ends.line[one], ends.line[two]], axis=1))
+    lines, of, count = ends.lines, label[ends.line[one]], int(label.max(initial=-1)) + 1
+    piece = np.flatnonzero(np.isin(lines.line, chain))
+    crossed = np.zeros(len(lines), dtype=bool)
+    crossed[lines.line[piece[_meets(ends, lines.segments(piece), lines.line[piece][:, None])]]] = True
+    over = beyond[one].astype(float) + beyond[two]
+    gap, dash = np.bincount(of, minlength=count), np.bincount(label[chain], minlength=count)
+    met = np.bincount(label[chain], weights=crossed[chain], minlength=count)
+    found: Flags = np.bincount(of, weights=over, minlength=count) > gap
+    found |= (2 * np.bincount(of, weights=held, minlength=count) > gap) & (2 * met < dash)
+    return found
+
+
+def _meets(ends: LooseEnds, piece: Segments, own: Index) -> Flags:
+    """True (k,) where a segment meets a chain that is not one of its own (k, any number)."""
+    lines, met = ends.lines, np.zeros(len(own), dtype=bool)
+    start, stop = piece.start @ lines.turn, piece.end @ lines.turn
+    for row, segment in lines.tree.query(np.minimum(start, stop), np.maximum(start, stop), distance=ends.within):
+        of = lines.line[segment]
+        kept = np.flatnonzero(~ends.short[of] & np.all(of[:, None] != own[row], axis=1))
+        kept = kept[~cannot_meet(piece.take(row[kept]), lines.segments(segment[kept]), within=ends.within)]
+        found = contacts(piece.take(row[kept]), lines.segments(segment[kept]), within=ends.within)
+        met[row[kept[found.meets.any(axis=0)]]] = True
+    return met
 
 
 def _mates(ends: LooseEnds, pairs: Faced) -> tuple[Index, Reals]:

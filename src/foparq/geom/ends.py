@@ -121,11 +121,15 @@ def _classify(lines: Polylines, aim: Aim, coincide: float, reach: float) -> Ends
     passed, whole = np.where(np.isfinite(stub.value), stub.value, 0.0), ends.lines.length[ends.line[dangling]]
     over = (passed > within) & (whole - passed >= aim.remainder * passed - lines.slack)
 
-    rest = dangling[~over]  # neither met nor beyond
-    pairs = faced(ends.take(rest), straight=aim.alongside)
+    pairs = faced(ends.take(dangling), straight=aim.alongside)
+    rows = dashes(ends.take(dangling), pairs, over)
+    settled = over.copy()  # not what another end misses
+    settled[rows.end] = True
+    missed = np.flatnonzero(~over[pairs.end] & ~settled[pairs.other])
     mine = ends.chains.vertex[ends.vertex]
-    found.target.lower(rest[pairs.end], pairs.apart, lines.line_of_vertex[mine[rest[pairs.other]]])
-    rows = dashes(ends.take(rest), pairs)
+    facing = lines.line_of_vertex[mine[dangling[pairs.other[missed]]]]
+    found.target.lower(dangling[pairs.end[missed]], pairs.apart[missed], facing)
+    rest = dangling[~over]  # neither met nor beyond
     near, target = found.near, found.target
     short = rest[target.value[rest] <= radius]
     beside = rest[(target.value[rest] > radius) & (near.value[rest] <= radius)]
@@ -136,7 +140,7 @@ def _classify(lines: Polylines, aim: Aim, coincide: float, reach: float) -> Ends
         (short, EndKind.UNDERSHOOT, target.value[short], target.line[short]),
         (beside, EndKind.BESIDE, near.value[beside], near.line[beside]),
         (free, EndKind.FREE, reach, NOBODY),
-        (rest[rows.end], EndKind.DASH, rows.gap, lines.line_of_vertex[mine[rest[rows.faced]]]),
+        (dangling[rows.end], EndKind.DASH, rows.gap, lines.line_of_vertex[mine[dangling[rows.faced]]]),
     ):
         at = place[chosen]
         kind[at], size[at], other[at] = which, amount, whom

@@ -10,7 +10,7 @@ from foparq.geom.boxtree import BoxTree
 from foparq.geom.ends import Aim, EndKind, classify_ends, loose_ends
 from foparq.geom.loose import Least, LooseEnds
 from foparq.geom.polylines import Polylines
-from foparq.geom.segments import at_share, cross
+from foparq.geom.segments import at_share, cross, nearest_share
 from foparq.geom.targets import closing, drawn_on
 
 
@@ -36,26 +36,28 @@ def heading_ends(lines: Polylines, aim: Aim, *, coincide: float, reach: float, h
 
     Notes
     -----
-    O((s + e) log s + near pairs). What runs alongside is not met. Of several lines the first on the way is named; the
-    own line, if its other end is nearer and the gap is its small remainder: an outline that was left open.
+    O((s + e) log s + near pairs). What runs alongside is not met, but what lies in line stands before all that is
+    farther on. Of several lines the first on the way is named; the own line, if its other end is nearer and the gap is
+    its small remainder: an outline that was left open.
     """
     found = classify_ends(lines, aim, coincide=coincide, reach=reach)
     asked = found.vertex[np.isin(found.kind, [EndKind.FREE, EndKind.BESIDE])]
     every = loose_ends(lines, within=coincide + lines.slack, radius=reach + lines.slack)
     mine = every.chains.vertex[every.vertex]
     ends = every.take(np.flatnonzero(np.isin(mine, asked)))
-    least = Least(lines, len(ends))
+    least, seen = Least(lines, len(ends)), np.full(len(ends), np.inf)
     for way in ends.directions:
-        _first_met(ends, way, aim.alongside, heading + lines.slack, least)
+        seen = np.minimum(seen, _first_met(ends, way, aim.alongside, heading + lines.slack, least))
     _corners(ends, heading + lines.slack, least)
-    _own_ends(ends, aim.remainder, least)
-    vertex = ends.chains.vertex[ends.vertex]
-    told = np.flatnonzero(np.isfinite(least.value))
-    return Heading(lines.line_of_vertex[vertex[told]], vertex[told], least.value[told], least.line[told])
+    told = np.flatnonzero(np.isfinite(least.value) & (least.value <= seen + lines.slack))
+    _own_ends(ends, told, aim.remainder, least)
+    vertex = ends.chains.vertex[ends.vertex][told]
+    return Heading(lines.line_of_vertex[vertex], vertex, least.value[told], least.line[told])
 
 
-def _first_met(ends: LooseEnds, way: Reals, alongside: float, heading: float, least: Least) -> None:
-    lines, start = ends.lines, ends.place
+def _first_met(ends: LooseEnds, way: Reals, alongside: float, heading: float, least: Least) -> Reals:
+    """Lower the distances to what is met; those (e,) to what lies in line, infinite where nothing does."""
+    lines, start, seen = ends.lines, ends.place, np.full(len(ends), np.inf)
     a, b = start @ lines.turn, (start + heading * way) @ lines.turn
     for end, segment in lines.tree.query(np.minimum(a, b), np.maximum(a, b), distance=ends.within):
         kept = np.flatnonzero(ends.others(end, segment))
@@ -64,8 +66,14 @@ def _first_met(ends: LooseEnds, way: Reals, alongside: float, heading: float, le
         on, meets = drawn_on(start[at], way[at], piece, ends.within)
         along = piece.end - piece.start
         length = np.hypot(*along.T)
-        meets &= (np.abs(cross(way[at], along)) >= np.sin(alongside) * length) & (length > lines.slack)
-        meets &= on <= heading
+        turned = np.abs(cross(way[at], along)) >= np.sin(alongside) * length
+        share = nearest_share(start[at], piece.start, piece.end)
+        aside = at_share(share, piece.start, piece.end) - start[at]
+        before = np.einsum("ij,ij->i", aside, way[at])
+        drop = np.abs(at_share(share, piece.z0, piece.z1) - ends.depth[at])
+        in_line = ~turned & (np.abs(cross(way[at], aside)) <= ends.within) & (before > 0) & (drop <= heading)
+        np.minimum.at(seen, at[in_line], before[in_line])
+        meets &= turned & (length > lines.slack) & (on <= heading)
         near = np.flatnonzero(meets)
         at, on, row, piece = at[near], on[near], row[near], piece.take(near)
         along, length = along[near], length[near]
@@ -73,6 +81,7 @@ def _first_met(ends: LooseEnds, way: Reals, alongside: float, heading: float, le
         drop = np.abs(at_share(np.clip(share, 0.0, 1.0), piece.z0, piece.z1) - ends.depth[at])
         level = np.flatnonzero(drop <= heading)
         least.lower(at[level], on[level], ends.chains.piece[row[level]])
+    return seen
 
 
 def _corners(ends: LooseEnds, heading: float, least: Least) -> None:
@@ -90,10 +99,10 @@ def _corners(ends: LooseEnds, heading: float, least: Least) -> None:
                 least.lower(i[rows], on[rows], ends.given.line_of_vertex[given[j[rows]]])
 
 
-def _own_ends(ends: LooseEnds, remainder: float, least: Least) -> None:
+def _own_ends(ends: LooseEnds, told: Index, remainder: float, least: Least) -> None:
     """Name the own line where its other end is nearer, and it is longer than so many times the gap."""
-    chains = ends.lines
-    gap, length = chains.opening[ends.line], chains.length[ends.line]
-    nearer = np.flatnonzero((gap < least.value) & np.isfinite(least.value) & (length >= remainder * gap - chains.slack))
-    far = np.where(ends.forward, chains.tails[ends.line], chains.heads[ends.line])[nearer]
-    least.lower(nearer, gap[nearer], ends.given.line_of_vertex[ends.chains.vertex[far]])
+    chains, line = ends.lines, ends.line[told]
+    gap, length = chains.opening[line], chains.length[line]
+    nearer = (gap < least.value[told]) & (length >= remainder * gap - chains.slack)
+    far = np.where(ends.forward[told], chains.tails[line], chains.heads[line])[nearer]
+    least.lower(told[nearer], gap[nearer], ends.given.line_of_vertex[ends.chains.vertex[far]])
