@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
 pytestmark = pytest.mark.browser
+A4_PIXELS = 688  #: of an A4 sheet between its margins, 182 mm
 CHROMIUM = Path("/usr/bin/chromium")
 
 
@@ -254,6 +255,38 @@ def test_paper_has_plates_with_the_number_of_every_row(browser: "Browser", many:
     assert len(lying) >= 2, "wide drawings on lying sheets"
     assert all("Plate" in sheet.extract_text() for sheet in lying)
     assert len(printed.pages) < 25
+
+
+LONG_PATH = "/dados/entregas/2026/estacao-ferroviaria-de-presidente-prudente/fachada-norte-revisao-3.dxf"
+LONG_LAYER = "MURO_DE_FECHO_DA_ESTACAO_FERROVIARIA_LADO_NORTE_PAVIMENTO_TERREO"
+
+
+@pytest.mark.parametrize("layer", [LONG_LAYER, "X" * 240])
+def test_nothing_is_wider_than_paper(
+    browser: "Browser", rejected: AuditRecord, drawing: Drawing, plant: Callable[..., Findings], tmp_path: Path,
+    layer: str,
+) -> None:  # fmt: skip
+    """What is wider makes the browser print everything smaller."""
+    moved = replace(drawing, path=LONG_PATH)
+    rows = [(f"{n:X}", layer, shapely.Point(n, 12.5, 3), 0.004) for n in range(25)]
+    record = replace(
+        rejected, findings=plant(moved, "TOP011", "undershoot", rows, other="31"),
+        outcomes=tuple(replace(run, source=LONG_PATH, scope=f"{LONG_PATH}: {layer}") for run in rejected.outcomes),
+        delivery=replace(
+            rejected.delivery, parts=(moved,),
+            sources=tuple(
+                replace(source, path=LONG_PATH, skipped=tuple(replace(part, layer=layer) for part in source.skipped))
+                for source in rejected.delivery.sources
+            ),
+        ),
+    )  # fmt: skip
+    write_page(record, tmp_path / "long.html")
+    shown = Shown(browser, tmp_path / "long.html", width=A4_PIXELS, at="?print=all")
+    for language in ("en", "pt-BR"):
+        shown.page.emulate_media(media="screen")
+        shown.page.locator(f"label[for=show-{language}]").click()
+        shown.page.emulate_media(media="print")
+        assert shown.page.evaluate("document.documentElement.scrollWidth") <= A4_PIXELS
 
 
 def test_layers_are_not_broken_on_paper(browser: "Browser", many: Path) -> None:

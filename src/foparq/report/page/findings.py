@@ -247,7 +247,7 @@ def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str
 
 def _named(item: str, layer: str) -> str:
     """An item with its layer: ``"175 (REBOCO)"``; ``""`` for none."""
-    return f"{printable(item)} ({printable(layer)})" if item else ""
+    return f"{printable(item)} ({printable(layer)})" if item and layer else printable(item)
 
 
 def _place(listing: Listing, row: int) -> str:

@@ -15,6 +15,7 @@ from foparq.model.items import Role
 from foparq.model.plane import Plane
 from foparq.report.contract import contract_facts
 from foparq.report.page.bar import scale_bar
+from foparq.report.page.breaks import breakable
 from foparq.report.page.completeness import CompletenessView, FeatureNumber, completeness_view, feature_numbers
 from foparq.report.page.coverage import LookedAt, coverage
 from foparq.report.page.drawing import GROUPS, Picture, picture_of
@@ -112,6 +113,7 @@ def page(record: AuditRecord) -> str:
             style_hash=_hash("page.css"),
             script_hash=_hash("page.js"),
             printable=printable,
+            breakable=breakable,
             class_word=class_word,
         )
     )

@@ -9,6 +9,7 @@ from foparq.report.page.plates import Plate, Plates
 from foparq.report.words import Words, printable
 
 _BELOW = 9.0  #: mm under the picture for the scale bar
+_TIMES = 10.0  #: how often larger a detail is: told with a decimal below
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -31,11 +32,11 @@ def plate_view(words: Words, plate: Plate) -> PlateView:
     left, top, width, height = plate.window
     share, lettering = scale_bar(words, plate.picture, width)
     length, times = round(share * width), plate.magnified
-    about = (
-        words("report.plates.detail", overview=plate.overview, times=words.number(times, 1 if times < 10 else 0))  # noqa: PLR2004
-        if plate.overview != plate.number
-        else words("report.plates.overview" if plate.first.frames else "report.plates.only")
-    )
+    told = {"overview": plate.overview, "times": words.number(times, 1 if times < _TIMES else 0)}
+    if plate.overview == plate.number:
+        about = words("report.plates.overview" if plate.first.frames or plate.rest.frames else "report.plates.only")
+    else:
+        about = words("report.plates.outside" if plate.outside else "report.plates.detail", **told)
     return PlateView(
         plate=plate,
         title=words("report.plates.plate", number=plate.number),

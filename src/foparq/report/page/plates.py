@@ -40,6 +40,7 @@ class Plate:
     unit: float  #: cells in a millimetre of paper
     magnified: float  #: how many times larger than the overview
     wide: bool  #: on a lying sheet
+    outside: bool  #: beside the overview: what it shows lies far from the linework
     further: bool  #: printed with all rows of the list only
     first: Ink  #: of the rows that are printed always
     rest: Ink  #: of the others
@@ -146,6 +147,12 @@ def _overview(picture: Picture, marks: _Marks) -> _Sheet:
 
 def _is_wide(overview: _Sheet) -> bool:
     return bool(overview.window[2] >= overview.window[3])
+
+
+def _meets(overview: _Sheet, sheet: _Sheet) -> bool:
+    """Whether a detail shows a part of the overview."""
+    ends = [np.array([one.window[:2], one.window[:2] + one.window[2:]]) for one in (overview, sheet)]
+    return bool((np.maximum(ends[0][0], ends[1][0]) < np.minimum(ends[0][1], ends[1][1])).all())
 
 
 def _holds(sheet: _Sheet, spots: Reals) -> Flags:
@@ -266,7 +273,7 @@ def _bound(
             number=number + n, picture=picture, overview=number, unit=sheet.unit,
             magnified=overview.unit / sheet.unit, wide=_is_wide(overview),
             window=tuple(np.rint(sheet.window).astype(np.int64).tolist()), further=n > len(early), first=first,
-            rest=rest,
+            outside=not _meets(overview, sheet), rest=rest,
         )  # fmt: skip
         made.append((plate, sheet))
     return made
@@ -282,7 +289,8 @@ def _framed(
     marks: _Marks, overview: _Sheet, details: list[_Sheet], numbers: Sequence[int], *, first: bool,
     taken: Reals = NOTHING,
 ) -> Ink:  # fmt: skip
-    windows = np.array([sheet.window for sheet in details]).reshape(-1, 4)
+    meeting = [n for n, sheet in enumerate(details) if _meets(overview, sheet)]
+    windows, numbers = np.array([details[n].window for n in meeting]).reshape(-1, 4), [numbers[n] for n in meeting]
     shown = marks.take(np.flatnonzero((marks.first == first) & _holds(overview, marks.spots)))
     taken = np.concatenate([taken, covered(overview.window, overview.unit, shown.spots)])
     frames = framed(overview.window, overview.unit, windows, numbers, taken)
