@@ -184,3 +184,13 @@ def _unfit(office: Office, _: np.random.Generator) -> Office:
 @attack("degrees", "checks.unit-angle", "features.unit-angle", office=FLAT_MAP)
 def _degrees(office: Office, _: np.random.Generator) -> Office:
     return office.change(tamper=(_geographic(np.array([-46.6, -23.5]), 1e-5),)).state("drawing", unit=None)
+
+
+@attack("degrees, stated in metres", *_UNIT, office=FLAT_MAP)
+def _stated_degrees(office: Office, _: np.random.Generator) -> Office:
+    return office.change(tamper=(_geographic(np.array([-46.6, -23.5]), 1e-5),))
+
+
+@attack("metres under a system of degrees, as a program set it by default", verdict="accepted", office=FLAT_MAP)
+def _default(office: Office, _: np.random.Generator) -> Office:
+    return office.change(tamper=(_geographic(np.zeros(2), 1.0),))

@@ -51,6 +51,16 @@ def test_degrees_are_no_length(tmp_path: Path) -> None:
     )
 
 
+def test_degrees_are_a_witness_against_a_stated_length(tmp_path: Path) -> None:
+    path = write(tmp_path / "a.gpkg", ["LINESTRING (-46.6 -23.5, -46.5 -23.4)"], crs="EPSG:4674")
+    unit = read(path, unit="m").unit
+    # A degree of latitude has 110.6 km at the equator and 111.7 km at a pole.
+    assert unit.metres == 1.0
+    assert unit.header == "degree"
+    assert unit.header_metres is not None
+    assert 110_500 < unit.header_metres < 111_700
+
+
 def test_degrees_beyond_the_globe_are_not_believed(tmp_path: Path) -> None:
     unit = read(write(tmp_path / "a.gpkg", ["POINT (1389 -3880)"], crs="EPSG:4326")).unit
     assert (unit.metres, unit.origin, unit.header) == (None, UnitOrigin.UNKNOWN, "degree")

@@ -109,7 +109,8 @@ def found_by(record: AuditRecord, rows: Index) -> tuple[list[str], list[str]]:
             continue
         own = _APART.split(item.rpartition(":")[2])[0] == handle
         cad.append("")
-        qgis.append(qgis_filter("$id" if own else "EntityHandle", [handle]) if item and handle else "")
+        named = item and (own or _HANDLE.fullmatch(handle))
+        qgis.append(qgis_filter("$id" if own else "EntityHandle", [handle]) if named else "")
     return cad, qgis
 
 

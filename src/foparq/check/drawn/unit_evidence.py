@@ -14,6 +14,7 @@ from foparq.model.items import Role
 from foparq.model.lettering import lettered_length
 from foparq.units import LENGTHS, length_name
 
+_ANGLE = "degree"  #: said of what is no length, and not said in metres
 _SAME_GROUP = 0.05  #: ratios of lettered to measured length that lie nearer than this are one group
 _LEAST_SHARE = 0.25  #: a smaller group is faulty lettering or a detail, not the unit of the drawing
 _LETTERING = 0.01  #: relative difference that rounded lettering cannot tell apart
@@ -101,7 +102,8 @@ def against(drawing: Drawing, agree: float) -> dict[str, str]:
     for row in np.flatnonzero(np.abs(evidence.says / evidence.used - 1) > np.maximum(agree, evidence.weight)):
         # A projection is what the header names.
         witness = "header" if evidence.witness[row] == "projection" else str(evidence.witness[row])
-        what = evidence.handle[row] if witness == "extent" else length_name(float(evidence.says[row]))
+        own = witness == "extent" or evidence.handle[row] == _ANGLE
+        what = evidence.handle[row] if own else length_name(float(evidence.says[row]))
         said.setdefault(witness, f"{evidence.item[row]}: {what}")
     return said
 

@@ -12,6 +12,7 @@ from foparq.model.drawing import DrawingUnit, UnitOrigin
 from foparq.units import LENGTHS, parse_length_unit
 
 _DEGREES = (180.0, 90.0)  #: farthest from zero that a longitude and a latitude can be
+_DEGREE = 6_371_008.8 * math.pi / 180  #: metres of latitude on the mean sphere of GRS 80: against what is stated
 _STEP = 100.0  #: metres on the projection: far above rounding, and (step / earth radius)^2 far below any use
 _UNDEFINED = "undefined"  #: how GeoPackage names what is no system; any other name says what its axes say
 
@@ -68,7 +69,7 @@ def unit_of(systems: tuple[str, ...], bounds: tuple[float, float, float, float],
         metres = parse_length_unit(stated) if len(systems) <= 1 else None
         return DrawingUnit(
             metres=metres, name=stated, origin=UnitOrigin.STATED,
-            header=said.header, header_metres=said.metres, stretch=said.stretch,
+            header=said.header, header_metres=_DEGREE if said.name == "degree" else said.metres, stretch=said.stretch,
         )  # fmt: skip
     return DrawingUnit(
         metres=said.metres, name=said.name, origin=UnitOrigin.HEADER if said.known else UnitOrigin.UNKNOWN,
