@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Places with and without depth in ``findings.gpkg``, and strokes of fractional length in a toned picture."""
+"""Depth of places in ``findings.gpkg``, which is flat, and strokes of fractional length in a toned picture."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -22,12 +22,12 @@ Plant = Callable[..., Findings]
 @pytest.mark.parametrize(
     ("places", "kind"),
     [
-        ([shapely.Point(1, 2)], "Point"), ([shapely.Point(1, 2, 3)], "Point Z"),
-        ([shapely.Point(1, 2), shapely.Point(1, 2, 3)], "Point Z"),
+        ([shapely.Point(1, 2)], "Point"), ([shapely.Point(1, 2, 3)], "Point"),
+        ([shapely.Point(1, 2), shapely.Point(1, 2, 3)], "Point"),
         ([shapely.Point(1, 2), shapely.MultiPoint([(1, 2), (3, 4)])], "MultiPoint"),
     ],
 )  # fmt: skip
-def test_a_layer_has_depth_if_one_of_its_places_has(
+def test_depth_is_a_column(
     rejected: AuditRecord, drawing: Drawing, plant: Plant, tmp_path: Path, places: list[shapely.Geometry], kind: str
 ) -> None:
     findings = plant(drawing, "TOP011", "undershoot", [(str(n), "0", place, 0.1) for n, place in enumerate(places)])

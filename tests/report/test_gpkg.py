@@ -18,6 +18,7 @@ from pyogrio.raw import read
 
 from foparq.findings.table import Findings, join_findings
 from foparq.model.drawing import Drawing
+from foparq.model.plane import plane_of
 from foparq.report import findings_gpkg
 from foparq.report.findings_gpkg import write_findings_gpkg
 from foparq.report.record import AuditRecord
@@ -28,7 +29,7 @@ Plant = Callable[..., Findings]
 LAYERS = ("flags_p", "flags_l", "flags_a")
 COLUMNS = [
     "reason", "featid", "key", "rule", "name", "severity", "source", "layer", "item", "handle", "inserts", "other",
-    "other_layer", "x", "y", "z", "size", "unit", "limit", "message", "waived",
+    "other_layer", "x", "y", "z", "size", "unit", "limit", "message", "waived", "facade",
 ]  # fmt: skip
 
 
@@ -45,6 +46,16 @@ def layer(path: Path, name: str) -> tuple[dict[str, Any], np.ndarray, dict[str, 
 def ask(path: Path, question: str) -> list[tuple[Any, ...]]:
     with closing(sqlite3.connect(path)) as database:
         return database.execute(question).fetchall()
+
+
+def systems(path: Path) -> list[int]:
+    return [number for (number,) in ask(path, "SELECT DISTINCT srs_id FROM gpkg_geometry_columns")]
+
+
+def on_plan(record: AuditRecord, **more: Any) -> AuditRecord:
+    """The same record with every drawing in xy."""
+    parts = tuple(replace(one, plane=plane_of("xy", one.items.geometry)) for one in record.delivery.drawings)
+    return replace(record, delivery=replace(record.delivery, parts=parts), **more)
 
 
 def test_three_layers_with_the_columns_in_order(rejected: AuditRecord, tmp_path: Path) -> None:
@@ -73,13 +84,16 @@ def test_every_finding_is_one_feature_where_it_lies(rejected: AuditRecord, tmp_p
             assert np.isnan(row["x"])
         else:
             assert dimension == shapely.get_dimensions(where)
-            assert shapely.equals_exact(shapely.force_2d(shape), shapely.force_2d(where))
-            assert shapely.has_z(where) <= shapely.has_z(shape)
-            assert [row["x"], row["y"]] == spots[n, :2].tolist()
+            # The facade stands in xz, in metres: it is seen from the front.
+            seen_from_front = shapely.transform(shapely.force_3d(where), lambda c: c[:, [0, 2, 1]], include_z=True)
+            assert shapely.equals_exact(shape, shapely.force_2d(seen_from_front), 1e-9)
+            assert not shapely.has_z(shape)
+            assert np.array_equal([row["x"], row["y"], row["z"]], spots[n], equal_nan=True)
         assert row["reason"] == row["message"] == sentences[n]
         assert row["featid"] == row["item"] == findings.item[n]
         assert row["severity"] == findings.severity[n]
         assert bool(row["waived"]) is False
+        assert row["facade"] == ("N" if row["source"] == "fachada.dxf" else "")
 
 
 def test_an_audit_without_findings_has_all_layers(accepted: AuditRecord, tmp_path: Path) -> None:
@@ -102,7 +116,7 @@ def test_mixed_and_multiple_places_stay_one_feature(
         shapely.Point(1, 2, 3),
     ]
     findings = plant(drawing, "TOP011", "undershoot", [(str(n), "0", shape, 0.1) for n, shape in enumerate(shapes)])
-    path = written(replace(rejected, findings=join_findings([findings])), tmp_path)
+    path = written(on_plan(rejected, findings=join_findings([findings])), tmp_path)
     found = {}
     for name in LAYERS:
         columns, geometry, meta = layer(path, name)
@@ -113,7 +127,7 @@ def test_mixed_and_multiple_places_stay_one_feature(
     }  # fmt: skip
     assert found["0"][1].normalize().equals(shapely.MultiPolygon([area]))
     assert found["1"][1].equals(line)
-    assert found["5"][1].geoms[0].z == 3
+    assert found["5"][1].equals(shapely.MultiPoint([(1, 2)]))
     assert found["4"][1] is None
 
 
@@ -122,8 +136,18 @@ def test_reference_system_is_that_of_the_drawing(
     rejected: AuditRecord, drawing: Drawing, crs: str, srs: int, tmp_path: Path
 ) -> None:
     placed = replace(drawing, reading=replace(drawing.reading, crs=crs))
-    path = written(replace(rejected, delivery=replace(rejected.delivery, parts=(placed,))), tmp_path)
-    assert ask(path, "SELECT DISTINCT srs_id FROM gpkg_geometry_columns") == [(srs,)]
+    facade = replace(rejected, delivery=replace(rejected.delivery, parts=(placed,)))
+    assert systems(written(facade, tmp_path)) == [-1]  # an elevation has no place on the map
+    assert systems(written(on_plan(facade), tmp_path)) == [srs]
+
+
+@pytest.mark.parametrize(("metres", "srs"), [(1.0, 31982), (0.001, -1)])
+def test_the_manifest_states_the_system_of_a_file_that_has_none(
+    rejected: AuditRecord, drawing: Drawing, metres: float, srs: int, tmp_path: Path
+) -> None:
+    part = replace(drawing, unit=replace(drawing.unit, metres=metres))
+    stated = replace(rejected, delivery=replace(rejected.delivery, parts=(part,), crs="EPSG:31982"))
+    assert systems(written(on_plan(stated), tmp_path)) == [srs]
 
 
 def test_drawings_that_differ_in_reference_system_share_none(
@@ -133,8 +157,8 @@ def test_drawings_that_differ_in_reference_system_share_none(
         replace(drawing, path=f"{n}.dxf", reading=replace(drawing.reading, crs=crs))
         for n, crs in enumerate(("EPSG:31982", "EPSG:31983"))
     )
-    path = written(replace(rejected, delivery=replace(rejected.delivery, parts=drawings)), tmp_path)
-    assert ask(path, "SELECT DISTINCT srs_id FROM gpkg_geometry_columns") == [(-1,)]
+    plan = on_plan(replace(rejected, delivery=replace(rejected.delivery, parts=drawings)))
+    assert systems(written(plan, tmp_path)) == [-1]
 
 
 def test_it_is_geopackage_1_3_of_the_moment_of_the_audit(rejected: AuditRecord, tmp_path: Path) -> None:
@@ -177,13 +201,13 @@ def test_findings_are_written_up_to_the_bound_of_the_profile(rejected: AuditReco
 
 
 @pytest.mark.parametrize(("language", "label"), [("pt-BR", "grave"), ("en", "major")])
-def test_every_layer_has_a_style_for_every_severity(
+def test_every_layer_of_findings_has_a_style_for_every_severity(
     rejected: AuditRecord, tmp_path: Path, language: str, label: str
 ) -> None:
     path = written(replace(rejected, language=language), tmp_path)
-    rows = ask(path, "SELECT f_table_name, f_geometry_column, useAsDefault, styleQML FROM layer_styles ORDER BY id")
-    assert [(name, column, default) for name, column, default, _ in rows] == [(name, "geom", 1) for name in LAYERS]
-    for number, (_, _, _, style) in enumerate(rows):
+    styles = dict(ask(path, "SELECT f_table_name, styleQML FROM layer_styles WHERE useAsDefault = 1"))
+    for number, name in enumerate(LAYERS):
+        style = styles[name]
         root = ET.fromstring(style)
         categories = root.findall("renderer-v2/categories/category")
         assert [part.get("value") for part in categories] == ["critical", "major", "minor", "note"]
@@ -191,7 +215,7 @@ def test_every_layer_has_a_style_for_every_severity(
         symbols = {part.get("name"): part for part in root.findall("renderer-v2/symbols/symbol")}
         assert {part.get("symbol") for part in categories} == set(symbols)
         assert root.findtext("layerGeometryType") == str(number)
-        assert root.find("labeling/settings/text-style").get("fieldName") == "name"
+        assert root.find("labeling/settings/text-style").get("fieldName") == 'represent_value("name")'
         assert [part.get("field") for part in root.findall("aliases/alias")] == COLUMNS
 
 

@@ -59,7 +59,9 @@ def test_json_holds_every_row(measured: AuditRecord) -> None:
 
 
 @pytest.mark.parametrize("metres", [1.0, 0.001])
-def test_gpkg_has_points_in_the_units_of_the_file(measured: AuditRecord, tmp_path: Path, metres: float) -> None:
+def test_gpkg_has_points_on_the_facade_and_in_the_units_of_the_file(
+    measured: AuditRecord, tmp_path: Path, metres: float
+) -> None:
     (drawing,) = measured.delivery.drawings
     parts = (replace(drawing, unit=replace(drawing.unit, metres=metres)),)
     write_findings_gpkg(replace(measured, delivery=replace(measured.delivery, parts=parts)), tmp_path / "f.gpkg")
@@ -68,9 +70,10 @@ def test_gpkg_has_points_in_the_units_of_the_file(measured: AuditRecord, tmp_pat
     assert list(table)[:6] == ["id", "dx", "dy", "dz", "counted", "outlier"]
     found = dict(zip(table["id"], zip(table["dx"], table["dy"], table["dz"], strict=True), strict=True))
     assert found == DIFFERENCES
-    places = shapely.get_coordinates(shapely.from_wkb(geometry), include_z=True)
-    wanted = np.array([PLACES[id_] for id_ in table["id"]]) / metres
-    assert places == pytest.approx(wanted, rel=1e-12)
+    wanted = np.array([PLACES[id_] for id_ in table["id"]])
+    assert np.column_stack([table[axis] for axis in "xyz"]) == pytest.approx(wanted / metres, rel=1e-12)
+    # The facade stands in xz; its layers are in metres.
+    assert shapely.get_coordinates(shapely.from_wkb(geometry)) == pytest.approx(wanted[:, [0, 2]], rel=1e-9)
 
 
 def test_without_measured_differences_there_is_no_layer_and_no_section(rejected: AuditRecord, tmp_path: Path) -> None:

@@ -52,6 +52,7 @@ class Delivery:
     confirmed: tuple[Confirmation, ...] = ()  #: in the order of the manifest
     decisions: tuple[Decision, ...] = ()  #: likewise
     contract: Contract | None = None  #: none where the manifest states none
+    crs: str = ""  #: coordinate reference system that the manifest states; ``""`` for local axes
 
     @property
     def drawings(self) -> tuple[Drawing, ...]:

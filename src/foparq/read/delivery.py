@@ -20,6 +20,7 @@ from foparq.model.items import Items, Role
 from foparq.model.plane import Plane, plane_of
 from foparq.model.statements import Contract, Decision
 from foparq.model.tables import Checkpoints, Distances, FeatureList
+from foparq.names import folded
 from foparq.profile.manifest import ConfirmedSection, ContractSection, DrawingSection, Manifest, TableSection
 from foparq.profile.schema import Profile
 from foparq.read.guard.parent import guarded
@@ -111,6 +112,7 @@ def read_delivery(
         parts=tuple(intake.drawings), checkpoints=checkpoints, distances=distances, features=features,
         confirmed=confirmations,
         contract=_contract(manifest.contract),
+        crs="" if folded(manifest.delivery.crs) == "local" else manifest.delivery.crs,
         decisions=tuple(Decision(**section.model_dump()) for section in manifest.decision),
     )  # fmt: skip
     return delivery, tuple(intake.crashes)

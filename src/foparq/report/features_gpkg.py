@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""``features_a`` of ``findings.gpkg``: what was counted as features, as outlines in file coordinates."""
+"""``features_a`` of ``findings.gpkg``: what was counted as features, as outlines."""
 
 from typing import Any
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from foparq.columns import Geometries, Texts
 from foparq.evaluate.quality import ClassBalance
 from foparq.report.record import AuditRecord
+from foparq.report.sheets_gpkg import Layout
 from foparq.report.words import Words, printable
 
 LAYER = "features_a"
 
 
-def features_layer(record: AuditRecord) -> tuple[str, Geometries, str, dict[str, NDArray[Any]]]:
+def features_layer(record: AuditRecord, layout: Layout) -> tuple[str, Geometries, str, dict[str, NDArray[Any]]]:
     """Name, outlines, type of geometry and columns of the layer.
 
     Columns are ``class``, ``facade``, ``reading`` in words, ``code`` (counted, part or copy), ``most`` features that
@@ -41,7 +41,7 @@ def features_layer(record: AuditRecord) -> tuple[str, Geometries, str, dict[str,
         "missing": _texts([_range(one, "missing") for one in balances]),
         "ids": _texts([", ".join(one.ids) if one else "" for one in balances]),
     }
-    return LAYER, shapely.force_3d(found.outline), "Polygon Z", columns
+    return LAYER, layout.shown(found.drawing, found.outline, found.sheet), "Polygon", columns
 
 
 def _range(balance: ClassBalance | None, name: str) -> str:
