@@ -152,5 +152,5 @@ def test_an_open_rate_is_shown_from_least_to_most(done: tuple[Written, Path], la
 
 def test_measures_are_named_in_the_language_of_the_page(done: tuple[Written, Path]) -> None:
     named = {one.id: one.measure for one in element_views(Words("pt-BR"), done[0].record)}
-    assert named["Q5"] == "taxa de itens ausentes (7)"
+    assert named["Q5"] == "taxa de itens faltantes (7)"
     assert named["Q4"] == "taxa de itens excedentes (3)"

@@ -122,7 +122,7 @@ def test_linework_is_that_of_the_drawing(rejected: AuditRecord, drawing: Drawing
     assert by_item[items[0]].length == pytest.approx(36 + 2 + 2 + 8**0.5)
     assert by_item[items[1]].equals(shapely.MultiLineString([[(0, 0), (1, 1)], [(5, 5), (6, 5)]]))
     assert by_item[items[2]].equals(shapely.LineString([(7, 7), (8, 8)]))
-    frame, _ = layer(path, "folhas_a")
+    frame, _ = layer(path, "desenho_a")
     # An empty line and one without numbers have no place: they are missed, and that is told.
     assert frame["items"].tolist() == [len(by_item) + 2]
     assert frame["drawn"].tolist() == [len(by_item)]
@@ -161,7 +161,7 @@ def test_drawings_stand_side_by_side_and_the_frame_leads_back(
     path = written(of(rejected, plant(plans[0], "TOP011", "undershoot", rows), *plans), tmp_path)
     with closing(sqlite3.connect(path)) as database:
         assert database.execute("SELECT DISTINCT srs_id FROM gpkg_geometry_columns").fetchall() == [(-1,)]
-    frames, outlines = layer(path, "folhas_a")
+    frames, outlines = layer(path, "desenho_a")
     assert frames["source"].tolist() == [one.path for one in plans]
     assert frames["facade"].tolist() == [one.facade for one in plans]
     for n, one in enumerate(outlines):
@@ -193,7 +193,7 @@ def test_plans_of_one_system_stay_where_they_are(rejected: AuditRecord, drawing:
         drawing, plane=plane_of("xy", drawing.items.geometry), reading=replace(drawing.reading, crs="EPSG:31982")
     )
     path = written(of(rejected, rejected.findings, plan, replace(plan, path="outra.dxf")), tmp_path)
-    frames, outlines = layer(path, "folhas_a")
+    frames, outlines = layer(path, "desenho_a")
     assert outlines[0].equals(outlines[1])
     assert not np.any([frames["shift_r"], frames["shift_u"]])
 
@@ -204,7 +204,7 @@ def test_what_is_left_out_of_the_linework_is_told(
     monkeypatch.setattr(drawing_gpkg, "MOST_ITEMS", 40)
     path = written(rejected, tmp_path)
     columns, _ = layer(path, "desenho_l")
-    frame, _ = layer(path, "folhas_a")
+    frame, _ = layer(path, "desenho_a")
     assert (frame["items"].tolist(), frame["drawn"].tolist()) == ([int(np.sum(~drawing.items.paper))], [40])
     named = {*rejected.findings.item, *rejected.findings.other} & set(drawing.items.item)
     assert named <= set(columns["item"])
@@ -225,4 +225,4 @@ def test_one_enormous_item_leaves_the_others_in(
 
 def test_a_delivery_without_drawings_has_the_layers(accepted: AuditRecord, tmp_path: Path) -> None:
     path = written(replace(accepted, delivery=replace(accepted.delivery, parts=())), tmp_path)
-    assert [len(layer(path, name)[1]) for name in ("flags_p", "desenho_l", "folhas_a")] == [0, 0, 0]
+    assert [len(layer(path, name)[1]) for name in ("flags_p", "desenho_l", "desenho_a")] == [0, 0, 0]

@@ -21,7 +21,7 @@ from foparq.report.record import AuditRecord
 DRAFT = Path(__file__).resolve().parents[2] / "fixtures" / "deliveries" / "station-a-draft"
 QGIS = Path("/usr/bin/python3")  # QGIS of Debian comes with the Python of the system
 LANGUAGES = ("pt-BR", "en")
-LAYERS = {"flags_p", "flags_l", "flags_a", "residuals", "features_a", "desenho_l", "folhas_a"}
+LAYERS = {"flags_p", "flags_l", "flags_a", "residuals", "features_a", "desenho_l", "desenho_a"}
 #: the same in both languages: names of axes, units and planes
 COMMON = {"x", "y", "z", "m", "m²", "Handle", "Item", "area"}
 

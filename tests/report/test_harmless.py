@@ -259,4 +259,5 @@ def test_a_map_tip_takes_names_as_text(rejected: AuditRecord, tmp_path: Path) ->
         fields = re.findall(r"\[% (.*?) %\]", tip)
         assert fields
         for field in fields:
-            assert re.fullmatch(r"""replace\(replace\("\w+", '&', '&amp;'\), '<', '&lt;'\)""", field)
+            value = r"""coalesce\(represent_value\("\w+"\), ''\)"""
+            assert re.fullmatch(rf"replace\(replace\({value}, '&', '&amp;'\), '<', '&lt;'\)", field)

@@ -212,7 +212,7 @@ def test_items_that_were_not_judged_are_named(rejected: AuditRecord) -> None:
     runs = tuple(replace(run, aside=aside) if run.skipped else run for run in rejected.outcomes)
     reader = read(replace(rejected, outcomes=runs))
     for language, odd, faulty in (
-        ("pt-BR", "2C (PISO): a regra não consegue trabalhar com ele", "3D (PISO): em falha por zero-length"),
+        ("pt-BR", "2C (PISO): a regra não consegue trabalhar com ele", "3D (PISO): com falha por zero-length"),
         ("en", "2C (PISO): the rule cannot work with it", "3D (PISO): at fault by zero-length"),
     ):
         assert odd in reader.words(language)

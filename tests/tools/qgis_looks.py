@@ -23,7 +23,7 @@ from qgis.core import (  # type: ignore[import-not-found]
 from qgis.PyQt.QtCore import QSize  # type: ignore[import-not-found]
 from qgis.PyQt.QtGui import QColor  # type: ignore[import-not-found]
 
-ORDER = ("flags_p", "flags_l", "flags_a", "residuals", "features_a", "desenho_l", "folhas_a")
+ORDER = ("flags_p", "flags_l", "flags_a", "residuals", "features_a", "desenho_l", "desenho_a")
 
 
 def told(layer: Any) -> dict[str, Any]:

@@ -46,7 +46,7 @@ def write_findings_gpkg(record: AuditRecord, path: Path) -> None:
     highest dimension are written. A finding without a place stands in ``flags_p`` without geometry. At most
     ``record.written`` findings of each rule are written. The layer ``residuals`` holds the checkpoints with their
     differences in metres, delivered minus surveyed; ``features_a`` what was counted as features; ``desenho_l`` the
-    linework, ``folhas_a`` the frame of each drawing.
+    linework, ``desenho_a`` the frame of each drawing.
     """
     # GDAL takes no path with line breaks or undecodable letters: the file is made where the path is plain.
     with private_folder() as plain:

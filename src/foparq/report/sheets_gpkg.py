@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How the drawings lie in ``findings.gpkg``: on their file, or in their planes side by side; and ``folhas_a``."""
+"""How the drawings lie in ``findings.gpkg``: on their file, or in their planes side by side; and ``desenho_a``."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from foparq.report.page.paths import strokes_of
 from foparq.report.record import AuditRecord
 from foparq.report.words import printable
 
-LAYER = "folhas_a"
+LAYER = "desenho_a"
 
 #: axes without a place on the Earth: GeoPackage reserves srs_id -1 for it (OGC 12-128, requirement 11)
 UNDEFINED = (
@@ -154,7 +154,7 @@ def _beside(before: list[Sheet], low: Reals, high: Reals) -> Reals:
 
 
 def sheets_layer(layout: Layout, drawn: dict[str, tuple[int, int]]) -> tuple[str, Geometries, str, dict[str, Any]]:
-    """Name, frames, type of geometry and columns of ``folhas_a``: one drawing a row, and how to go back to its file.
+    """Name, frames, type of geometry and columns of ``desenho_a``: one drawing a row, and how to go back to its file.
 
     Parameters
     ----------
