@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from foparq.report.words import Words
+
 ROOT = Path(__file__).resolve().parents[1]
 _STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
 #: words of the other language that give it away; each stands in hundreds of sentences
@@ -140,3 +142,27 @@ def test_a_planted_bad_word_is_found(planted: str) -> None:
 )  # fmt: skip
 def test_a_sentence_of_the_other_language_is_found(text: str, words: frozenset[str]) -> None:
     assert len(foreign((("planted", text),), words)) == 1
+
+
+@pytest.mark.parametrize("language", ["pt_BR", "en"])
+def test_what_is_said_of_one_thing_names_the_number(language: str) -> None:
+    """``id|n`` is the message ``id`` where ``n`` is one: both stand, and hold the number."""
+    texts = dict(catalogue(language))
+    singular = [place for place in texts if "|" in place]
+    assert len(singular) > 30
+    for place in singular:
+        plain, _, number = place.partition("|")
+        assert f"{{{number}}}" in texts[place], place
+        assert set(re.findall(r"{\w+}", texts[place])) <= set(re.findall(r"{\w+}", texts[plain])), place
+
+
+@pytest.mark.parametrize(
+    ("language", "number", "said"),
+    [
+        ("pt-BR", 1, "1 entidade não foi verificada"), ("pt-BR", 2, "2 entidades não foram verificadas"),
+        ("en", 1, "1 entity was not checked"), ("en", 0, "0 entities were not checked"),
+    ],
+)  # fmt: skip
+def test_one_thing_is_told_in_the_singular(language: str, number: int, said: str) -> None:
+    sentence = Words(language)("evaluate.unseen.skipped", element="Q3", file="a.dxf", n=number, kinds="MLINE")
+    assert said in sentence
