@@ -6,6 +6,7 @@ import pytest
 from tests.evaluate.deliveries import drawing, drawn, judge, messages, not_run, one, outcome, parameter, spec
 
 from foparq.evaluate.quality import ElementStatus, Verdict
+from foparq.evaluate.remarks import deciding
 from foparq.findings.because import Because
 from foparq.findings.outcome import SetAside, Status
 from foparq.model.drawing import Bomb, Skipped, SkippedReason
@@ -110,6 +111,18 @@ def test_only_what_was_set_aside_counts_as_set_aside() -> None:
         Q3, delivery=HERE, outcomes=[noted, outcome("undershoot", range(10), checked=100), *clean("undershoot")]
     )
     assert (element.status, parameter(element, "set-aside")) == (PASS, 0.0)
+
+
+@pytest.mark.parametrize("note", ["free-end", "shared-edge"])
+def test_the_number_of_notes_stands_beside_the_rate_and_changes_nothing(note: str) -> None:
+    twice = [outcome(note, range(n, n + 3), checked=100) for n in (20, 40)]
+    plain = one(Q3, delivery=HERE, outcomes=clean())
+    element = one(Q3, delivery=HERE, outcomes=[*twice, *clean()])
+    assert (element.status, element.value) == (plain.status, plain.value) == (PASS, 0.0)
+    (remark,) = set(element.why) - set(plain.why)
+    assert remark.message == {"free-end": "faulty.free", "shared-edge": "faulty.shared"}[note]
+    assert dict(remark.fields)["n"] == 6
+    assert remark not in deciding(element)
 
 
 def test_items_that_a_rule_could_not_judge_are_named() -> None:

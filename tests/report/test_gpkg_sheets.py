@@ -226,3 +226,17 @@ def test_one_enormous_item_leaves_the_others_in(
 def test_a_delivery_without_drawings_has_the_layers(accepted: AuditRecord, tmp_path: Path) -> None:
     path = written(replace(accepted, delivery=replace(accepted.delivery, parts=())), tmp_path)
     assert [len(layer(path, name)[1]) for name in ("flags_p", "desenho_l", "desenho_a")] == [0, 0, 0]
+
+
+@pytest.mark.parametrize("far", [1e12, 1e300, -1.7e308])
+def test_absurd_coordinates_stay_one_drawing_s_affair(
+    rejected: AuditRecord, drawing: Drawing, tmp_path: Path, far: float
+) -> None:
+    geometry = drawing.items.geometry.copy()
+    geometry[:] = shapely.LineString([(far, 0, far), (-far, 0, 1)])
+    absurd = replace(drawing, path="b.dxf", items=replace(drawing.items, geometry=geometry))
+    path = written(of(rejected, rejected.findings, drawing, absurd), tmp_path)
+    frames, outlines = layer(path, "desenho_a")
+    assert np.isfinite(shapely.get_coordinates(outlines)).all()
+    assert (frames["shift_r"][0], frames["shift_u"][0]) == (0, 0)
+    assert frames["drawn"].tolist() == frames["items"].tolist()

@@ -11,7 +11,7 @@ _REMARKS = frozenset({
     "evidence.repeated", "evidence.repeated-distances", "evidence.taken", "evidence.flat",
     "absolute.survey-finer", "relative.survey-finer",
     "evidence.names-only", "evidence.good", "evidence.absent-confirmed", "evidence.distances-confirmed",
-    "checks.preview", "checks.unfit", "faulty.free", "faulty.probable",
+    "checks.preview", "checks.unfit", "faulty.free", "faulty.probable", "faulty.shared",
     "features.unmapped", "omission.net", "omission.unproven", "evidence.most-confirmed", "evidence.unnamed",
 })  # fmt: skip
 

@@ -25,6 +25,7 @@ UNDEFINED = (
 )
 
 _GAP = 0.1  # of the widest drawing, between two
+_FARTHEST = 1e12  # metres or units: a frame goes no farther
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -132,11 +133,13 @@ def _base(drawing: Drawing) -> Reals:
 def _extent(drawing: Drawing, *, on_file: bool) -> tuple[Reals, Reals]:
     """Corners of what is seen of a drawing, without strays; NaN if nothing is."""
     seen = drawing.items.geometry[drawing.visible_rows()]
-    strokes, _ = without_strays(strokes_of(seen, None if on_file else drawing.plane, drawing.unit.metres or 1.0))
+    with np.errstate(over="ignore"):  # coordinates may be anything
+        strokes, _ = without_strays(strokes_of(seen, None if on_file else drawing.plane, drawing.unit.metres or 1.0))
     if not len(strokes.points):
         return np.full(2, np.nan), np.full(2, np.nan)
     base = np.zeros(2) if on_file else _base(drawing)
-    return strokes.points.min(axis=0) + base, strokes.points.max(axis=0) + base
+    points = np.clip(strokes.points + base, -_FARTHEST, _FARTHEST)
+    return points.min(axis=0), points.max(axis=0)
 
 
 def _beside(before: list[Sheet], low: Reals, high: Reals) -> Reals:

@@ -4,7 +4,7 @@
 from foparq.evaluate.evidence import Evidence, Judgement, Parameters, element, judged, limit_of, unseen
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.left_out import left_out_doubts
-from foparq.evaluate.quality import Element, ElementStatus, because, some
+from foparq.evaluate.quality import Element, ElementStatus, Reason, because, some
 from foparq.evaluate.tally import (
     Tally,
     broken_reasons,
@@ -74,6 +74,23 @@ def _by_length(found: Tally) -> Parameters:
     return (("length-faulty", faulty, "m"), ("length", whole, "m"), ("length-rate", faulty / whole, "1"))
 
 
+def _noted(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Numbers of the notes that a reviewer may want to look at: they are no faults, and count in no rate."""
+    found = {
+        note: [outcome for outcome in evidence.outcomes if outcome.name == note and outcome.found]
+        for note in ("free-end", "probable-undershoot", "shared-edge")
+    }
+    free, probable, shared = (sum(outcome.found for outcome in outcomes) for outcomes in found.values())
+    noted = [because("faulty.free", element=name, n=free)] if free else []
+    if heading := found["probable-undershoot"]:
+        checked = sum(outcome.checked for outcome in heading)
+        far = max(value for outcome in heading for key, value, _ in outcome.parameters if key == "heading")
+        noted.append(because("faulty.probable", element=name, n=probable, checked=checked, heading=(far, "m")))
+    if shared:
+        noted.append(because("faulty.shared", element=name, n=shared))
+    return tuple(noted)
+
+
 def _judge(spec: FaultyRateSpec, evidence: Evidence, found: Tally, limit: float) -> Judgement:
     name, broken = spec.id, broken_reasons(found, spec.id)
     rate = found.faulty / found.checked
@@ -81,16 +98,10 @@ def _judge(spec: FaultyRateSpec, evidence: Evidence, found: Tally, limit: float)
         "element": name, "faulty": found.faulty, "checked": found.checked, "value": (rate, "1"), "limit": (limit, "1"),
     }  # fmt: skip
     preview = because("checks.preview", element=name, rules=list(found.preview))
-    remarks = (*undeclared_reasons(found, name), *unfit_remark(found, name), *((preview,) if found.preview else ()))
-    if free := sum(outcome.found for outcome in evidence.outcomes if outcome.name == "free-end"):
-        remarks = (*remarks, because("faulty.free", element=name, n=free))
-    heading = [outcome for outcome in evidence.outcomes if outcome.name == "probable-undershoot" and outcome.found]
-    if probable := sum(outcome.found for outcome in heading):
-        checked = sum(outcome.checked for outcome in heading)
-        far = max(value for outcome in heading for key, value, _ in outcome.parameters if key == "heading")
-        remarks = (
-            *remarks, because("faulty.probable", element=name, n=probable, checked=checked, heading=(far, "m"))
-        )  # fmt: skip
+    remarks = (
+        *undeclared_reasons(found, name), *unfit_remark(found, name), *((preview,) if found.preview else ()),
+        *_noted(evidence, name),
+    )  # fmt: skip
     if any(why is Because.CRASHED for why, _ in found.broken):
         return judged(ElementStatus.UNDECIDED, *broken, *remarks)
     hidden = (*unseen(evidence, name), *left_out_doubts(evidence, name))
