@@ -3,6 +3,7 @@
 
 import re
 import shutil
+import tomllib
 from pathlib import Path
 
 import ezdxf
@@ -27,6 +28,24 @@ def draw(path: Path, *layers: str) -> Path:
 
 def proposed(folder: Path) -> str:
     return (folder / "delivery.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("language", ["pt", "en"])
+def test_layers_of_axes_and_dimensions_are_asked_about(foparq: Command, tmp_path: Path, language: str) -> None:
+    layers = ("EIXO", "A-COTAS", "PAREDE", "EIXO_JANELA", "Cota h")
+    draw(tmp_path / "fachada.dxf", *layers)
+    (tmp_path / "lista.csv").write_text("id;classe;fachada\n1;janela;N\n", encoding="utf-8")
+    assert foparq("init", tmp_path, "--lang", language)[0] == 0
+    (line,) = [line for line in proposed(tmp_path).splitlines() if "ignore_layers = " in line]
+    assert line.startswith("# "), "whether they are judged is for a person to say"
+    assert set(tomllib.loads(line[2:])["ignore_layers"]) == {"EIXO", "A-COTAS", "Cota h"}
+    assert load_manifest(tmp_path / "delivery.toml").drawing[0].ignore_layers == ()
+
+
+def test_nothing_is_asked_where_no_layer_is_named_like_an_aid(foparq: Command, tmp_path: Path) -> None:
+    draw(tmp_path / "fachada.dxf", "PAREDE", "COTOVELO", "EIXAMENTO")
+    assert foparq("init", tmp_path)[0] == 0
+    assert "ignore_layers" not in proposed(tmp_path)
 
 
 def test_classes_and_facades_are_those_of_the_list(foparq: Command, tmp_path: Path) -> None:

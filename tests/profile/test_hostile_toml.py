@@ -77,7 +77,7 @@ def test_a_pipe_is_never_waited_for(tmp_path: Path) -> None:
     os.mkfifo(path)
     with pytest.raises(ManifestError) as caught:
         load_manifest(path)
-    assert caught.value.message == "toml.unreadable"
+    assert caught.value.message == "toml.not-a-file"
 
 
 def test_a_profile_that_no_file_system_could_hold(tmp_path: Path) -> None:

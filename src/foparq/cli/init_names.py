@@ -20,6 +20,24 @@ _SAME = (
     ("frontao", "pediment", "fronton"), ("balaustre", "baluster"), ("beiral", "eaves", "alero"),
 )  # fmt: skip
 
+#: words for what helps to draw or to read and shows nothing of the building
+_AIDS = (
+    "eixo", "axis", "eje", "cota", "dimension", "dim", "malha", "grid", "auxiliar", "aux", "rascunho", "construcao",
+    "carimbo", "selo", "margem", "viewport", "vport",
+)  # fmt: skip
+
+
+def aids_like(layers: Sequence[str]) -> tuple[str, ...]:
+    """Layers that are named like axes, dimensions, grids and other aids.
+
+    Examples
+    --------
+    >>> aids_like(["EIXOS", "A-COTAS", "PAREDE", "COTAÇÃO", "Malha"])
+    ('EIXOS', 'A-COTAS', 'Malha')
+    """
+    kinds = {of_kind(word) for word in _AIDS}
+    return tuple(layer for layer in layers if any(of_kind(word) in kinds for word in _WORD.findall(unaccented(layer))))
+
 
 def class_like(layer: str, classes: Sequence[str]) -> str | None:
     """Class of the list that a layer is named like: the same word, its beginning, or one that means the same.

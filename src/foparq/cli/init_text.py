@@ -5,7 +5,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import replace
 
-from foparq.cli.init_names import class_like, facade_like
+from foparq.cli.init_names import aids_like, class_like, facade_like
 from foparq.profile.examples import EXAMPLES
 from foparq.read.table.revisions import revision_of
 from foparq.read.table.survey import FoundDrawing, FoundTable, Other, Survey
@@ -93,6 +93,7 @@ def _drawing(drawing: FoundDrawing, found: Survey, say: Words) -> list[str]:
         *_classes(drawing, found, say),
         *_comment(say("cli.manifest.areas")),
         '# areas = ["REVESTIMENTO"]',
+        *_ignored(drawing, found, say),
         *_layers(drawing, found, say),
     ]
 
@@ -113,6 +114,12 @@ def _classes(drawing: FoundDrawing, found: Survey, say: Words) -> list[str]:
     pairs = ", ".join(f"{_quoted(layer)} = {_quoted(name)}" for layer, name in shown.items())
     names = [_quoted(name) for name in found.classes]
     return [*_comment(say("cli.manifest.classes-listed", classes=names)), f"# classes = {{ {pairs} }}"]
+
+
+def _ignored(drawing: FoundDrawing, found: Survey, say: Words) -> list[str]:
+    aids = [layer for layer in aids_like(drawing.layers) if not class_like(layer, found.classes)][:_MOST_LAYERS]
+    names = ", ".join(_quoted(layer) for layer in aids)
+    return [*_comment(say("cli.manifest.ignore-layers")), f"# ignore_layers = [{names}]"] if aids else []
 
 
 def _layers(drawing: FoundDrawing, found: Survey, say: Words) -> list[str]:

@@ -94,7 +94,7 @@ def _bytes(path: Path, kind: type[UsageError]) -> bytes:
     # A pipe would never end.
     found = path.stat()
     if not stat.S_ISREG(found.st_mode):
-        raise kind("toml.unreadable", file=str(path), value="not a regular file")
+        raise kind("toml.not-a-file", file=str(path))
     if found.st_size > _MOST_BYTES:
         raise kind("toml.too-large", file=str(path), value=found.st_size, limit=_MOST_BYTES)
     return path.read_bytes()
