@@ -438,3 +438,10 @@ def test_the_origin_is_that_of_the_linework_and_lettering_may_lie_anywhere(tmp_p
     files = [tmp_path / "both.dxf", tmp_path / "lettered.dxf"]
     delivered, _ = read_loose(files, profile=profile(), scale=50, unit=None, plane="xy")
     assert [drawing.plane.origin for drawing in delivered.drawings] == [(40.0, 30.0, 0.0), (-5001.0, -5001.0, 0.0)]
+
+
+@pytest.mark.parametrize(("stated", "taken"), [({}, ""), ({"crs": "Local"}, ""), ({"crs": "EPSG:31982"}, "EPSG:31982")])
+def test_the_stated_reference_system_is_the_delivery_s(tmp_path: Path, stated: dict[str, str], taken: str) -> None:
+    drawing(tmp_path / "planta.dxf")
+    plan = Manifest.model_validate({"delivery": {"title": "Planta", **stated}, "drawing": [{"path": "planta.dxf"}]})
+    assert take(tmp_path, plan).crs == taken

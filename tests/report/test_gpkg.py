@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pyogrio
+import pyproj
 import pytest
 import shapely
 from pyogrio.raw import read
@@ -148,6 +149,16 @@ def test_the_manifest_states_the_system_of_a_file_that_has_none(
     part = replace(drawing, unit=replace(drawing.unit, metres=metres))
     stated = replace(rejected, delivery=replace(rejected.delivery, parts=(part,), crs="EPSG:31982"))
     assert systems(written(on_plan(stated), tmp_path)) == [srs]
+
+
+def test_a_system_that_is_called_like_a_file_opens_none(
+    rejected: AuditRecord, drawing: Drawing, tmp_path: Path
+) -> None:
+    """GDAL takes names of files and addresses for systems; a delivery names its system as it likes."""
+    (tmp_path / "system.wkt").write_text(pyproj.CRS.from_epsg(31982).to_wkt("WKT1_GDAL"), encoding="utf-8")
+    named = replace(drawing, reading=replace(drawing.reading, crs=str(tmp_path / "system.wkt")))
+    delivery = replace(rejected.delivery, parts=(named,), crs="EPSG:31982")
+    assert systems(written(on_plan(replace(rejected, delivery=delivery)), tmp_path)) == [-1]
 
 
 def test_drawings_that_differ_in_reference_system_share_none(

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """How the drawings lie in ``findings.gpkg``: on their file, or in their planes side by side; and ``desenho_a``."""
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -24,6 +25,8 @@ UNDEFINED = (
     'AXIS["(E)",east,ORDER[1],LENGTHUNIT["metre",1]],AXIS["(N)",north,ORDER[2],LENGTHUNIT["metre",1]]]'
 )
 
+#: what a system may be called: GDAL opens files and addresses that bear its name
+_CODE = re.compile(r"[A-Za-z]+:\d{1,8}")
 _GAP = 0.1  # of the widest drawing, between two
 _FARTHEST = 1e12  # metres or units: a frame goes no farther
 
@@ -113,7 +116,8 @@ def layout_of(record: AuditRecord) -> Layout:
         low, high = _extent(one, on_file=on_file)
         shift = np.zeros(2) if on_file else _beside(sheets, low, high)
         sheets.append(Sheet(drawing=one, low=low + shift, high=high + shift, shift=shift))
-    return Layout(on_file=on_file, crs=(shared if on_file else "") or UNDEFINED, sheets=tuple(sheets))
+    known = on_file and _CODE.fullmatch(shared) is not None
+    return Layout(on_file=on_file, crs=shared if known else UNDEFINED, sheets=tuple(sheets))
 
 
 def _crs(record: AuditRecord, drawing: Drawing) -> str:
