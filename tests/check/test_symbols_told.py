@@ -8,6 +8,7 @@ from typing import Any
 
 import ezdxf
 import numpy as np
+import pyogrio
 import pytest
 import shapely
 import shapely.affinity
@@ -103,6 +104,21 @@ def test_a_cad_export_has_the_same_symbols(tmp_path: Path, options: dict[str, st
     one, two = check(path), check(moved)
     assert places(two, *FAULTS) == places(one, *FAULTS) == [[3.0, 0.005, 0.0]]
     assert [done.record.delivery.drawings[0].symbols.inserts for done in (one, two)] == [6, 6]
+
+
+def test_features_of_several_lines_are_inserts_of_a_block_without_a_name(tmp_path: Path) -> None:
+    """In a GeoPackage that no CAD program made: by their form, not by the layer they share."""
+    arms = [[(-0.05, 0), (0.05, 0)], [(0, -0.05), (0, 0.05)]]
+    crosses = [shapely.multilinestrings(np.array(arms) + np.array([x, 3.0])) for x in range(6)]
+    posts = [shapely.MultiLineString([[(x, 0), (x, 0.05)], [(x, 0.05), (x + 0.05, 0.05)]]) for x in range(6)]
+    lines = np.array([*crosses, *posts, shapely.MultiLineString([[(-5, 0), (9, 0)], [(-5, 7), (9, 7)]])])
+    path = tmp_path / "a.gpkg"
+    pyogrio.raw.write(
+        path, shapely.to_wkb(lines), [np.arange(len(lines))], ["n"], driver="GPKG", layer="TUDO",
+        geometry_type="MultiLineString", crs='LOCAL_CS["Undefined Cartesian SRS"]',
+    )  # fmt: skip
+    (block,) = check(path).record.delivery.drawings[0].symbols.blocks
+    assert (block.name, block.inserts, block.layers) == ("", 6, (("TUDO", 6),)), "posts stand on the wall"
 
 
 def test_a_symbol_is_small_on_the_sheet(tmp_path: Path) -> None:

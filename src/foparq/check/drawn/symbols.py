@@ -3,6 +3,7 @@
 
 import re
 import traceback
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
@@ -19,7 +20,7 @@ from foparq.geom.standing import alone, fitting, joined
 from foparq.model.delivery import Delivery
 from foparq.model.drawing import Drawing, Skipped, SkippedReason
 from foparq.model.inputs import Lines
-from foparq.model.items import INSERT_END, Holder, holders_of
+from foparq.model.items import INSERT_END, Holder, Items, holders_of
 from foparq.model.layers import matches
 from foparq.model.symbols import SymbolBlock, Symbols
 from foparq.names import folded, of_kind
@@ -28,6 +29,7 @@ from foparq.profile.schema import Profile
 _HANDLES = 5  #: of a block that are named
 _ONE_PLACE = 20  #: places nearer than this part of what is visible are one
 _ALIKE = 1e-6  #: share of their length by which nameless inserts of one block may differ
+_PART = re.compile(r"(.+)\.\d+")  #: id of a part of a feature, and that of the feature
 _ANONYMOUS = "*"  #: begins the name of a block that a program made: each form of a dynamic block has its own
 
 
@@ -66,7 +68,7 @@ def with_symbols(
     found: dict[str, Symbols] = {}
     log: list[str] = []
     for drawing in delivery.drawings:
-        if drawing.unit.metres is None or not any(drawing.items.holders):
+        if drawing.unit.metres is None or not any(_grouped(drawing.items)):
             continue
         hidden = profile.reading.hidden == "check"
         args = (drawing, measures, frozenset(map(of_kind, listed)), hidden)
@@ -158,7 +160,7 @@ def symbols_of(drawing: Drawing, measures: Measures, kinds: frozenset[str] = fro
     columns = Columns(drawing, hidden=hidden)
     lines = columns.build(Lines, np.arange(len(columns.rows)))
     assert isinstance(lines, Lines)  # noqa: S101 - what was asked for
-    inserts = _Inserts(lines.holders)
+    inserts = _Inserts(_grouped(lines))
     table, count = lines.polylines, len(inserts.holder)
     group = np.full(len(lines), NOBODY, dtype=np.intp)
     for level in inserts.levels:
@@ -182,6 +184,18 @@ def symbols_of(drawing: Drawing, measures: Measures, kinds: frozenset[str] = fro
     symbol = repeated[block] & ~((ends.loose > 0) & (2 * ends.met >= ends.loose))
     symbol |= alone(table, group, times[block] < measures.times, within=measures.clear)
     return _told(lines, inserts, group, chosen, block, symbol, ends.held | (ends.near > 0))
+
+
+def _grouped(rows: Lines | Items) -> Texts:
+    """(n,) holders of rows; a feature of several parts holds them like an insert whose block has no name."""
+    holders: Texts = rows.holders.copy()
+    alone = np.flatnonzero((holders == "") & (rows.item != rows.handle))
+    named = [_PART.fullmatch(item) for item in rows.item[alone].tolist()]
+    times = Counter(found[1] for found in named if found)
+    for row, found in zip(alone.tolist(), named, strict=True):
+        if found and times[found[1]] > 1:
+            holders[row] = str(Holder(found[1], rows.layer[row], ""))
+    return holders
 
 
 class _Inserts:
