@@ -12,6 +12,9 @@ from foparq.report.words import LANGUAGES
 FIELDS = {"size", "limit", "layer", "item", "handle", "other", "other_layer", "inserts", "source", "told"}
 
 
+SENTENCES = ("finding", "finding_other", "finding_own")
+
+
 def placeholders(text: str) -> set[str]:
     return {field for _, field, _, _ in string.Formatter().parse(text) if field is not None}
 
@@ -22,17 +25,18 @@ def check_texts(rule: Rule, tables: dict[str, Any]) -> None:
     assert set(tables) == set(LANGUAGES), f"{file} needs one table a language: {LANGUAGES}"
     for language, texts in tables.items():
         due = {"title", "finding", "mend"} | ({"translates", "manual"} if language != "en" else set())
-        assert set(texts) - {"finding_other"} == due, (
+        assert set(texts) - {"finding_other", "finding_own"} == due, (
             f"[{language}] of {file} must hold {sorted(due)}, no more and no less"
         )
         for part, text in texts.items():
             assert isinstance(text, str), f"{part} under [{language}] of {file} is no text"
             assert text.strip(), f"{part} under [{language}] of {file} is empty"
-        unknown = placeholders(texts["finding"] + texts.get("finding_other", "")) - FIELDS
+        sentences = "".join(texts.get(part, "") for part in SENTENCES)
+        unknown = placeholders(sentences) - FIELDS
         assert not unknown, f"finding under [{language}] of {file} names {unknown}: only {sorted(FIELDS)} are filled in"
         for part in ("title", "mend"):
             assert not placeholders(texts[part]), f"{part} under [{language}] of {file} names fields; only finding may"
-    for part in ("finding", "finding_other"):
+    for part in SENTENCES:
         english, portuguese = (placeholders(tables[language].get(part, "")) for language in ("en", "pt-BR"))
         assert english == portuguese, f"{part} of {file} names {english} in English, {portuguese} in Portuguese"
 

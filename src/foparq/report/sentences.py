@@ -37,7 +37,8 @@ def finding_sentences(words: Words, findings: Findings, rows: Index) -> list[str
     Returns
     -------
     list of str, k
-        ``rules.CODE.finding``, or ``finding_other`` where a rule has that for findings with a second item, with
+        ``rules.CODE.finding``, or where a rule has that for findings with a second item, ``finding_other``, and if that
+        is the item itself, ``finding_own``; with
         ``size``, ``limit`` (quantities), ``layer``, ``item``, ``handle``, ``other``, ``other_layer``, ``inserts``,
         ``source`` and ``told`` (a repair) filled in. ``handle`` names the item as ``other`` names the other one: with
         the way through the blocks, and by its number where the file has none.
@@ -58,15 +59,16 @@ def finding_sentences(words: Words, findings: Findings, rows: Index) -> list[str
 
 
 def _variants(code: str, findings: Findings, rows: Index, mine: Index) -> Iterator[tuple[str, Index]]:
-    """The sentence of a rule, or where it has two, that for findings without and that with a second item."""
-    plain, with_other = f"rules.{code}.finding", f"rules.{code}.finding_other"
-    if not has_part(code, "finding_other"):
-        yield plain, mine
-        return
-    named = findings.other[rows[mine]] != ""
-    for message, some in ((plain, mine[~named]), (with_other, mine[named])):
-        if len(some):
-            yield message, some
+    """The sentence of a rule, and where it has them, those for a second item and for the same item once more."""
+    other = findings.other[rows[mine]]
+    left = np.ones(len(mine), dtype=bool)
+    for part, fits in (("finding_own", other == findings.item[rows[mine]]), ("finding_other", other != "")):
+        chosen = fits & left & has_part(code, part)
+        left &= ~chosen
+        if chosen.any():
+            yield f"rules.{code}.{part}", mine[chosen]
+    if left.any():
+        yield f"rules.{code}.finding", mine[left]
 
 
 def _filled(words: Words, message: str, findings: Findings, rows: Index) -> list[str]:

@@ -25,7 +25,9 @@ def probable_undershoot(
 
     An end that is free (TOP013) is a **probable undershoot** if, drawn on by at most ``heading``, it meets other
     linework that is turned against it by ``alongside`` or more, or closes a corner with another free end that is drawn
-    on by no more. The direction is that of the last segment, or of the chord over the last ``reach``.
+    on by no more; nothing that lies in line is nearer. The direction is that of the last segment, or of the chord over
+    the last ``reach``. If the other end of the line is nearer still, and the line ``remainder`` times as long as the
+    gap between them, that is what it misses: an outline left open.
 
     Parameters
     ----------
