@@ -26,7 +26,7 @@ from foparq.report.record import AuditRecord
 from foparq.report.words import LANGUAGES, Words
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-VOID = {"meta", "input", "br", "img", "link", "hr"}
+VOID = {"meta", "input", "br", "img", "link", "hr", "wbr"}
 
 
 class Reader(HTMLParser):
