@@ -50,14 +50,14 @@ def manual_of(words: Words, card: Card) -> tuple[Section, ...]:
 
 
 def plain(text: str) -> str:
-    """Text without the marks of reStructuredText.
+    """Text without the marks of reStructuredText; what is typed as it stands, such as a key, is quoted.
 
     Examples
     --------
     >>> plain("An *end* is **free** beyond ``reach``; 2 * 3")
-    'An end is free beyond reach; 2 * 3'
+    'An end is free beyond “reach”; 2 * 3'
     """
-    return _MARKS.sub(lambda found: next(filter(None, found.groups())), text)
+    return _MARKS.sub(lambda found: f"“{found['code']}”" if found["code"] else found["strong"] or found["term"], text)
 
 
 def _paragraphs(text: str) -> tuple[str, ...]:
