@@ -61,3 +61,11 @@ def test_no_word_of_a_manual_is_lost(card: Card, language: str) -> None:
     assert set(prose.split()) <= set(re.sub("[*“”]", "", kept).split())
     described = " ".join(line for part in parts[2::2] for line in part.split("\n") if line.startswith(" "))
     assert set(re.sub(r"``|\*", "", described).split()) <= set(re.sub("[*“”]", "", kept).split())
+
+
+@pytest.mark.parametrize("language", ["en", "pt-BR"])
+def test_each_item_of_a_list_stands_on_a_line_of_its_own(explain: Callable[..., str], language: str) -> None:
+    out = explain("undershoot", "--lang", language)
+    items = [line for line in out.splitlines() if line.startswith("- ")]
+    assert len(items) == 3
+    assert not any("; -" in line for line in out.splitlines())

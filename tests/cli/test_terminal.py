@@ -118,3 +118,32 @@ def test_an_error_is_json_where_json_was_asked_for(foparq: Command, tmp_path: Pa
     fields = json.loads(foparq("audit", folder, "--format", "json")[1])["error"]["fields"]
     assert (fields["key"], fields["line"]) == ("escala", 2)
     assert foparq("audit", folder, "--format", "jsonl")[:2] == (2, "")
+
+
+def deliver_glazing(folder: Path) -> Path:
+    """A frame without a fault, whose bar stops 30 mm short of it: a millimetre on the sheet is 50 mm."""
+    folder = deliver(folder)
+    document = ezdxf.new("R2010", units=6)
+    document.modelspace().add_lwpolyline([(0, 0), (3, 0), (3, 3), (0, 3)], close=True)
+    document.modelspace().add_line((1, 0.03), (1, 3))
+    document.saveas(folder / "a.dxf")
+    return folder
+
+
+@pytest.mark.parametrize(("language", "told"), [("en", "50 mm away: 1 (lines"), ("pt-BR", "50 mm: 1 (linhas")])
+def test_what_heads_for_a_line_is_a_remark_though_consistency_passes(
+    foparq: Command, tmp_path: Path, language: str, told: str
+) -> None:
+    code, out, _ = foparq("audit", deliver_glazing(tmp_path / "d"), "--lang", language)
+    assert code == 3, "points, distances and features were not delivered"
+    assert re.search(r"^Q3 .* (pass(es)?|conforms|atende)$", out, re.MULTILINE)
+    remarks = out.partition("Q1-X  ")[0]
+    assert told in remarks
+
+
+def test_a_note_says_what_to_do(foparq: Command, tmp_path: Path) -> None:
+    folder = deliver_glazing(tmp_path / "d")
+    out = foparq("check", folder / "a.dxf", "--scale", "1:50")[1]
+    notes = re.findall(r"^TOP\d+ ([\w-]+) \(note\)", out, re.MULTILINE)
+    assert notes == ["free-end", "probable-undershoot"]
+    assert len(re.findall(r"^  > ", out, re.MULTILINE)) == len(notes)

@@ -209,3 +209,12 @@ def test_the_drawings_of_a_delivery_prove_its_tables(
     source = next(source for source in delivery.sources if source.role == "checkpoints")
     assert source.status is status
     assert (delivery.checkpoints is None) == (status is SourceStatus.REFUSED)
+
+
+@pytest.mark.parametrize("cell", ["#N/D", ""])
+def test_the_number_that_an_error_shows_as_an_example_is_in_no_doubt(tmp_path: Path, cell: str) -> None:
+    lengths = ["1,001", "2,002", cell]
+    with pytest.raises(UnreadableError) as told:
+        read_distances(written(tmp_path, distances(lengths)), METRES, extents=())
+    shown = str(told.value.fields["example"]).replace(".", ",")
+    assert read_distances(written(tmp_path, distances([*lengths[:2], shown])), METRES, extents=())

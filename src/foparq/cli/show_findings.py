@@ -35,8 +35,7 @@ def show_findings(record: AuditRecord, say: Words) -> None:
                 tell("  ".join(part for part in (file, row["paste"], row["message"]) if part), "  ", "      ")
             if count > _SHOWN:
                 tell(say("cli.more", count=count - _SHOWN), "  ")
-            if severity is not Severity.NOTE:
-                tell(say(f"rules.{rule}.mend"), "  > ")
+            tell(say(f"rules.{rule}.mend"), "  > ")
     _ways(rows, say)
 
 

@@ -46,16 +46,17 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
         doubts.append(because("verdict.nothing-required"))
     beside: list[Sequence[Reason]] = [remarks_on(element, deciding(element)) for element in opened]
     beside += [_confirmed(evidence), left_out(evidence)]
+    passed = [remarks_on(element, basis(element)) for element in required if element.status is ElementStatus.PASS]
     doubted, remarked = scale_doubts(profile, evidence)
     if doubted:
         failing = _together(basis(element) for element in failed)
-        return _report(Verdict.UNDECIDED, (*doubted, *doubts), [failing, *beside], elements, evidence)
+        return _report(Verdict.UNDECIDED, (*doubted, *doubts), [failing, *beside, *passed], elements, evidence)
     if failed:
         rest = [remarks_on(element, basis(element)) for element in failed]
-        beside = [diagnosis(profile, evidence, elements), doubts, *rest, *beside]
+        beside = [diagnosis(profile, evidence, elements), doubts, *rest, *beside, *passed]
         return _report(Verdict.REJECTED, _together(map(basis, failed)), beside, elements, evidence)
     if doubts:
-        return _report(Verdict.UNDECIDED, doubts, beside, elements, evidence)
+        return _report(Verdict.UNDECIDED, doubts, [*beside, *passed], elements, evidence)
     why = [because("verdict.accepted", elements=[element.id for element in required])]
     # Where most points are drawn nowhere, the acceptance is somebody's word: it begins with the name.
     why[:0] = _together(
@@ -64,7 +65,7 @@ def decide(profile: Profile, evidence: Evidence, elements: Sequence[Element]) ->
     why += _together(basis(element) if _tolerated(element) else basis(element)[1:] for element in required)
     if others := [element.id for element in elements if element not in required and element.value is not None]:
         beside.append((because("verdict.not-required", elements=others),))
-    beside += [remarked, *(remarks_on(element, basis(element)) for element in required), _hidden(evidence)]
+    beside += [remarked, *passed, _hidden(evidence)]
     return _report(Verdict.ACCEPTED, why, beside, elements, evidence)
 
 

@@ -61,8 +61,8 @@ def plain(text: str) -> str:
 
 
 def _paragraphs(text: str) -> tuple[str, ...]:
-    """Text parted at empty lines and before each entry of a list."""
-    return tuple(plain(" ".join(part.split())) for part in re.split(r"\n\s*\n|\n(?=- )", text) if part.strip())
+    """Paragraphs without the marks of source code; each item of a list is one of its own."""
+    return tuple(plain(" ".join(part.split())) for part in re.split(r"\n\s*\n|\n(?=\s*- )", text) if part.strip())
 
 
 def _parameters(body: str, tolerances: set[str]) -> list[Section]:

@@ -78,10 +78,10 @@ def lengths_of(sheet: Sheet, column: str, unit: float, *, required: bool) -> tup
     for row, cell in enumerate(sheet.cells(column)):
         if cell == "":
             if required:
-                raise sheet.fault("table.cell-empty", row, column, example="12.345")
+                raise sheet.fault("table.cell-empty", row, column, example="8.35")
             continue
         if isinstance(cell, Odd):
-            raise sheet.fault("table.date", row, column, example="12.345")
+            raise sheet.fault("table.date", row, column, example="8.35")
         number = number_of(cell) if isinstance(cell, str) else _by_value(cell)
         if number is None or abs(number.decimals) > _MOST_DIGITS:
             raise sheet.fault("table.not-a-number", row, column, example="1234.5")

@@ -118,9 +118,9 @@ def _refuse_odd(sheet: Sheet) -> None:
     for column in sorted(sheet.at, key=lambda name: sheet.at[name]):
         for row, cell in enumerate(sheet.cells(column)):
             if isinstance(cell, Odd) and cell.kind in faults:
-                raise sheet.fault(faults[cell.kind], row, column, example="12.345")
+                raise sheet.fault(faults[cell.kind], row, column, example="8.35")
             if is_failed(cell):
-                raise sheet.fault("table.error-cell", row, column, example="12.345")
+                raise sheet.fault("table.error-cell", row, column, example="8.35")
 
 
 def header_at(lines: Sequence[Line], asked: Asked) -> int:
