@@ -144,18 +144,6 @@ def test_a_sentence_of_the_other_language_is_found(text: str, words: frozenset[s
     assert len(foreign((("planted", text),), words)) == 1
 
 
-@pytest.mark.parametrize("language", ["pt_BR", "en"])
-def test_what_is_said_of_one_thing_names_the_number(language: str) -> None:
-    """``id|n`` is the message ``id`` where ``n`` is one: both stand, and hold the number."""
-    texts = dict(catalogue(language))
-    singular = [place for place in texts if "|" in place]
-    assert len(singular) > 30
-    for place in singular:
-        plain, _, number = place.partition("|")
-        assert f"{{{number}}}" in texts[place], place
-        assert set(re.findall(r"{\w+}", texts[place])) <= set(re.findall(r"{\w+}", texts[plain])), place
-
-
 @pytest.mark.parametrize(
     ("language", "number", "said"),
     [

@@ -44,6 +44,16 @@ def test_what_is_wrong_in_a_manifest_is_told_in_its_language(foparq: Command, tm
     assert foparq("audit", folder)[2].startswith("Error: ")
 
 
+@pytest.mark.parametrize("tag", ["pt", "PT-br", "pt_BR"])
+def test_the_language_of_a_manifest_may_be_spelt_shorter(foparq: Command, tmp_path: Path, tag: str) -> None:
+    folder = deliver(tmp_path / "d", MANIFEST.replace('"pt-BR"', f'"{tag}"'))
+    assert foparq("audit", folder)[1].startswith("NÃO CONFORME")
+    deliver(folder, (folder / "delivery.toml").read_text(encoding="utf-8") + "[contract]\ndate = 20/11/2026\n")
+    assert foparq("audit", folder)[2].startswith("Erro: "), "what is not TOML states its language all the same"
+    deliver(folder, MANIFEST.replace('"pt-BR"', '"de"'))
+    assert foparq("audit", folder)[0] == 2
+
+
 @pytest.mark.parametrize("columns", [20, 60, 80, 100])
 @pytest.mark.parametrize("language", ["en", "pt-BR"])
 def test_lines_are_as_wide_as_the_terminal(

@@ -2,6 +2,7 @@
 """Profiles and manifests from files, with errors that name file, line, key, value and a right example."""
 
 import hashlib
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar, get_args
@@ -14,7 +15,7 @@ from foparq.profile.claims import refuse_false_claims, refuse_false_elements
 from foparq.profile.elements import ElementSpec
 from foparq.profile.examples import EXAMPLES
 from foparq.profile.find import find_profile, is_shipped, shipped_profiles
-from foparq.profile.manifest import Language, Manifest
+from foparq.profile.manifest import Language, Manifest, spoken
 from foparq.profile.schema import CheckSpec, Profile, ProfileFile
 from foparq.profile.toml_text import TomlText, read_toml
 
@@ -38,6 +39,9 @@ _TOP_KEYS = {
 }
 #: what a profile of one's own says itself: it inherits no claim
 _OWN_KEYS = {"name", "title", "norms"}
+#: where a manifest that is not TOML states its language
+_LANGUAGE_LINE = re.compile(r"""^\s*language\s*=\s*["']([\w-]{2,8})["']""", re.MULTILINE)
+_FIRST_BYTES = 65_536  #: of such a file
 _SHOWN = 80  #: letters of a wrong value that a message repeats
 
 _Model = TypeVar("_Model", bound=BaseModel)
@@ -138,9 +142,21 @@ def stated_language(path: Path) -> str | None:
     try:
         delivery = read_toml(path, ManifestError).data.get("delivery")
     except ManifestError:
+        return _language_line(path)
+    language = spoken(delivery.get("language")) if isinstance(delivery, Mapping) else None
+    return str(language) if language in get_args(Language) else None
+
+
+def _language_line(path: Path) -> str | None:
+    """Language that a line of a file states which is not TOML."""
+    try:
+        with path.open("rb") as file:
+            text = file.read(_FIRST_BYTES).decode("utf-8", errors="replace")
+    except OSError:
         return None
-    language = delivery.get("language") if isinstance(delivery, Mapping) else None
-    return language if language in get_args(Language) else None
+    stated = _LANGUAGE_LINE.search(text)
+    language = spoken(stated[1]) if stated else None
+    return str(language) if language in get_args(Language) else None
 
 
 def _checks(text: TomlText) -> list[CheckSpec]:

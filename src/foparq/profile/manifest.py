@@ -4,7 +4,7 @@
 import datetime as dt
 import re
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BeforeValidator, Field
 
@@ -24,6 +24,18 @@ def _groups(value: object) -> object:
     return value
 
 
+def spoken(tag: object) -> object:
+    """Language of a tag, by its first part and in any case; what is none that is spoken stays as it is.
+
+    Examples
+    --------
+    >>> spoken("pt"), spoken("PT-br"), spoken("de")
+    ('pt-BR', 'pt-BR', 'de')
+    """
+    first = re.split("[-_]", tag.strip().casefold())[0] if isinstance(tag, str) else tag
+    return next((name for name in get_args(Language) if name.partition("-")[0] == first), tag)
+
+
 #: no building is larger than its planet
 Ordinate = Annotated[float, Field(ge=-1e8, le=1e8, allow_inf_nan=False)]
 Language = Literal["pt-BR", "en"]
@@ -41,7 +53,7 @@ class DeliverySection(Strict):
     profile: str = "et-doc-foparq-a"  #: a shipped name, or a file in the folder
     scale: ScaleText | None = None
     crs: str = "local"
-    language: Language | None = None
+    language: Annotated[Language | None, BeforeValidator(spoken)] = None
 
 
 class DrawingSection(Strict):

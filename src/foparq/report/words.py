@@ -3,8 +3,7 @@
 
 Texts live in gettext catalogues under ``reports/templates/locale``, one file a domain and language; those of rules, the
 domain ``rules``, in one file a rule under ``rules/texts``. A message is named ``"domain.id"``:
-``words("rules.TOP021.finding", size="4,0 mm")``. Code never holds a sentence. A message may stand a second time
-with the name of a number: ``"unseen.block|n"`` is said where ``n`` is one.
+``words("rules.TOP021.finding", size="4,0 mm")``. Code never holds a sentence.
 """
 
 import gettext
@@ -65,7 +64,7 @@ class Words:
         KeyError
             If the catalogue has no such message or the message names a field that is not given.
         """
-        text = self._of_one(message, fields) or self.find(message)
+        text = self.find(message)
         if text is None:
             raise KeyError(f"no message {message!r} in {self.language}")
         return text.format_map(_Filled(self, fields)) if "{" in text else text
@@ -77,11 +76,6 @@ class Words:
             return rule_text(key, self.language)
         text = self._catalogue(domain).gettext(key)
         return None if text == key else text
-
-    def _of_one(self, message: str, fields: Mapping[str, object]) -> str | None:
-        """The message as it is said of one thing, where the catalogue tells one from many and a number is one."""
-        ones = (name for name, value in fields.items() if value == 1 and not isinstance(value, bool))
-        return next(filter(None, (self.find(f"{message}|{name}") for name in ones)), None)
 
     def joined(self, sentences: Iterable[str]) -> str:
         """Sentences one behind the other; what is no whole sentence is parted by semicolons."""
