@@ -99,7 +99,7 @@ class CloudSubject(Subject):
     def examined(self, kind: type) -> bool:  # noqa: ARG002 - the engine's call
         return False
 
-    def doubt(self, outcomes: Sequence[Outcome]) -> Doubt:  # noqa: ARG002 - the engine's call
+    def doubt(self, outcomes: Sequence[Outcome], visible: float) -> Doubt:  # noqa: ARG002 - the engine's call
         return NO_DOUBT
 
     def counted(self, rows: Index, faulty: Index) -> int:  # noqa: ARG002 - the engine's call

@@ -14,6 +14,7 @@ from tests.attacks import (  # noqa: F401 - enter their attacks
     placing,
     references,
     repetition,
+    sheets,
     statements,
 )
 from tests.attacks.kinds import ATTACKS, Attack

@@ -100,7 +100,7 @@ def test_a_drawing_over_the_limit_is_not_hidden_by_a_clean_one() -> None:
     said = dict(element.why[0].fields)
     assert element.why[0].message == "faulty.one-drawing"
     assert (said["file"], said["faulty"], said["checked"]) == ("a.dxf", 10, 30)
-    touched = rate(sketch([*posts(3, 0.004), *posts(7, 0.0)[3 * 3 :], *strokes(9, 1.5)]), clean)
+    touched = rate(sketch([*posts(3, 0.004), *posts(7, 0.0)[3 * 3 :], *strokes(9, 1.5, at=500.0)]), clean)
     assert [row for row in touched.details if row[0] == "a.dxf"] == [("a.dxf", 3.0, 30.0)]
     assert touched.status is ElementStatus.PASS
     assert rate(sketch(posts(10, 0.004)), sketch(posts(3, 0.004), "b.dxf")).status is ElementStatus.FAIL

@@ -201,7 +201,7 @@ def _looked(
     visible: float,
 ) -> tuple[Outcome, Findings | None]:  # fmt: skip
     """What the rule finds, or why it cannot look."""
-    if call.rule.metric and (doubt := subject.doubt(outcomes)).because is not Because.RAN:
+    if call.rule.metric and (doubt := subject.doubt(outcomes, visible)).because is not Because.RAN:
         return replace(outcome, because=doubt.because, names=doubt.names), None
     undeclared = subject.undeclared(call.rule.subject, visible)
     outcome = replace(outcome, parameters=call.parameters, undeclared=undeclared)

@@ -115,8 +115,14 @@ class Subject(ABC):
         """Whether an empty input means that the file was looked at and nothing was there to report."""
 
     @abstractmethod
-    def doubt(self, outcomes: Sequence[Outcome]) -> Doubt:
-        """Why tolerances in metres mean nothing on this part; ``NO_DOUBT`` if they do."""
+    def doubt(self, outcomes: Sequence[Outcome], visible: float) -> Doubt:
+        """Why tolerances in metres mean nothing on this part; ``NO_DOUBT`` if they do.
+
+        Parameters
+        ----------
+        visible : float, metres
+            What is smaller cannot be seen on the sheet; 0 if the scale is unknown.
+        """
 
     @abstractmethod
     def counted(self, rows: Index, faulty: Index) -> int:

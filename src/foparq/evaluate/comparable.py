@@ -67,6 +67,13 @@ def doubtful(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     return tuple(why)
 
 
+def unit_doubts(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Drawings of doubtful unit: a table that was held against one in that unit shares its doubt."""
+    doubts = (Because.UNIT_DOUBTFUL, Because.UNIT_CONTRADICTED)
+    doubted = {outcome.source: where_broken(outcome) for outcome in evidence.outcomes if outcome.because in doubts}
+    return (because("evidence.unit-doubted", element=name, files=list(doubted.values())),) if doubted else ()
+
+
 def unmapped(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:
     """Layers that no class is bound to, as a remark: not assessed, never commission."""
     if not counts.unmapped:

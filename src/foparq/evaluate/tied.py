@@ -10,6 +10,7 @@ from foparq.accuracy.bounds import rounding_bound
 from foparq.accuracy.differences import differences
 from foparq.accuracy.too_good import too_good
 from foparq.columns import Flags, Index, Reals, Texts
+from foparq.evaluate.comparable import unit_doubts
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.facades import facade_doubts, unnamed_remark
 from foparq.evaluate.quality import Reason, because, some
@@ -77,7 +78,7 @@ def tied_points(points: Checkpoints, evidence: Evidence, name: str, *, fewest: i
             if len(beyond):
                 doubts = (*doubts, _naming("evidence.beyond", name, points.id[beyond], total=len(points.id)))
     slips = other_coordinates(points.surveyed, ties.delivered, name)
-    doubts = (*slips, *doubts, *facade_doubts(ties, counted, name, fewest))
+    doubts = (*slips, *doubts, *facade_doubts(ties, counted, name, fewest)) or unit_doubts(evidence, name)
     remarks += unnamed_remark(ties, counted, name)
     return Tied(rows, every[rows], doubts, tuple(remarks))
 
@@ -103,7 +104,8 @@ def tied_distances(distances: Distances, evidence: Evidence, name: str) -> Tied:
         # Ends that are in the drawing are drawn: lengths that contradict them stay a doubt.
         drawn = ties.ends == Ends.OTHER_LENGTH
         ties = replace(ties, ends=np.where(drawn, ties.ends, str(Ends.NAMES)))
-    doubts = (*other_lengths(distances.measured, ties.delivered, name), *_not_of_drawing(distances, ties, name))
+    slips = other_lengths(distances.measured, ties.delivered, name)
+    doubts = (*slips, *_not_of_drawing(distances, ties, name)) or unit_doubts(evidence, name)
     return Tied(rows, every[rows], doubts, tuple(remarks))
 
 

@@ -22,6 +22,7 @@ _EXAMPLES = 5
 _STRETCH = 0.002  #: scale of a projection that no survey of a building could overlook
 _SMALLEST = 0.2  #: metres across that a drawing of a building has at least
 _LARGEST_DXF, _LARGEST_GIS = 500.0, 20_000.0  #: and at most: of a building, and of a town in a map
+_ON_SHEET = (50.0, 100_000.0)  #: times what can be seen, that a drawing is across on its sheet
 _VAGUE = 0.5  #: weight of what is merely implausible
 _MATCH = 0.02  #: relative difference of a lettered number to the measured length in another unit
 
@@ -80,7 +81,7 @@ def unit_evidence(drawing: Drawing) -> UnitEvidence:
                 _Statement("projection", unit.metres / unit.stretch, 0.0, "projection", handle=unit.header)
             )
         largest = _LARGEST_DXF if drawing.reading.version.startswith("AC") else _LARGEST_GIS
-        across = _implausible(drawing, unit.metres, largest)
+        across = _implausible(drawing, unit.metres, _SMALLEST, largest)
         if across is not None:
             plausible = _SMALLEST if across < _SMALLEST else largest
             says = unit.metres * plausible / across
@@ -106,6 +107,21 @@ def against(drawing: Drawing, agree: float) -> dict[str, str]:
         what = evidence.handle[row] if own else length_name(float(evidence.says[row]))
         said.setdefault(witness, f"{evidence.item[row]}: {what}")
     return said
+
+
+def extent_off_sheet(drawing: Drawing, visible: float) -> float:
+    """Metres across a drawing that fits on no sheet, by its extent and the scale; 0 if it fits, or nobody knows.
+
+    Parameters
+    ----------
+    visible : float, metres
+        What is smaller cannot be seen on the sheet; 0 if the scale is unknown. A drawing is at least 50 times as large
+        (1 cm of paper), and at most 100,000 times (20 m).
+    """
+    low, high = _ON_SHEET
+    metres = drawing.unit.metres
+    across = _implausible(drawing, metres, low * visible, high * visible, visible) if metres and visible > 0 else None
+    return across or 0.0
 
 
 def _columns(statements: list[_Statement], used: float) -> UnitEvidence:
@@ -179,17 +195,24 @@ def _row_of(drawing: Drawing, chain: str) -> int:
     return int(rows[0]) if len(rows) else -1
 
 
-def _implausible(drawing: Drawing, metres: float, largest: float) -> float | None:
-    """Metres across, if no building is; ``None`` if one could be."""
+def _implausible(
+    drawing: Drawing, metres: float, smallest: float, largest: float, visible: float = 0.0
+) -> float | None:
+    """Metres across, if it is less or more than these metres; ``None`` if it lies between, or nothing is drawn.
+
+    Items that are smaller than ``visible`` are not asked, unless there are no others.
+    """
     seen = drawing.visible_rows() & np.isin(drawing.items.role, [Role.LINE, Role.AREA])
     boxes = boxes_of(drawing.items.geometry[seen])
     if len(boxes) == 0:
         return None
+    large = (boxes[:, 3:] - boxes[:, :3]).max(axis=1) * metres >= visible
+    boxes = boxes[large] if large.any() else boxes
     low, high = main_box(boxes)
     together = float((high - low).max()) * metres
     if together == 0:
         return None
-    if together < _SMALLEST:
+    if together < smallest:
         return float(together)
     low, high = middle(boxes)
     spread = float(np.max(high - low)) * metres

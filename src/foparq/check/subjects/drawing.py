@@ -10,7 +10,7 @@ import shapely
 from foparq.check.drawn.columns import Columns
 from foparq.check.drawn.facts import EXAMINED, FACTS
 from foparq.check.drawn.stance import better_plane
-from foparq.check.drawn.unit_evidence import against
+from foparq.check.drawn.unit_evidence import against, extent_off_sheet
 from foparq.check.subject import NO_DOUBT, Doubt, Patterns, Places, Subject, Taken, subject
 from foparq.columns import Geometries, Index, Texts, union
 from foparq.findings.because import Because
@@ -87,12 +87,12 @@ class DrawingSubject(Subject):
         """Statements that nobody made mean that there was nothing to say."""
         return kind in EXAMINED
 
-    def doubt(self, outcomes: Sequence[Outcome]) -> Doubt:
+    def doubt(self, outcomes: Sequence[Outcome], visible: float) -> Doubt:
         """Unit unknown or contradicted, a plane that is not the drawing's, or symbols that nobody told apart.
 
         The file's own unit is doubtful as soon as one statement contradicts it. A unit that a person states is so if
         two independent witnesses say otherwise, or what the person states of another drawing with the same coordinates
-        or of a table, until it is confirmed.
+        or of a table, until it is confirmed. So it is if the drawing would fit on no sheet.
         """
         unit = self.drawing.unit
         if unit.metres is None:
@@ -107,6 +107,10 @@ class DrawingSubject(Subject):
             witnesses = against(self.drawing, max(dict(_agree(one)).get("agree", 0.0) for one in doubted))
             if len(witnesses) >= _WITNESSES or _ALONE & witnesses.keys():
                 return Doubt(Because.UNIT_CONTRADICTED, (f"unit: {unit.name}", *witnesses.values()))
+        if unit.origin is UnitOrigin.STATED and "unit" not in self.drawing.confirmed:
+            across = extent_off_sheet(self.drawing, visible)
+            if across:
+                return Doubt(Because.UNIT_CONTRADICTED, (f"unit: {unit.name}", f"extent: {across:.3g} m"))
         return self._plane_doubt if not self.drawing.symbols.broken else Doubt(Because(self.drawing.symbols.broken))
 
     @cached_property
