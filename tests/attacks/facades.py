@@ -194,3 +194,8 @@ def _diluted(made: Office, _: np.random.Generator) -> Office:
 @attack("the same faults alone", "faulty.fail", verdict="rejected", office=PLAIN)
 def _alone(made: Office, _: np.random.Generator) -> Office:
     return made.change(tamper=(_twofold(120),))
+
+
+@attack("an empty drawing of another facade", "unseen.nothing", office=PLAIN)
+def _empty(made: Office, _: np.random.Generator) -> Office:
+    return helper(made, lambda *_: None, facade="S")

@@ -126,6 +126,8 @@ def unseen(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     why: list[Reason] = []
     if lost := evidence.lost("drawing"):
         why.append(because("unseen.file", element=name, files=lost))
+    if bare := _bare(evidence):
+        why.append(because("unseen.nothing", element=name, files=bare))
     for drawing in evidence.delivery.drawings:
         if bombs := sorted({bomb.block for bomb in drawing.reading.bombs}):
             why.append(because("unseen.block", element=name, file=drawing.path, blocks=some(bombs, 5), n=len(bombs)))
@@ -137,6 +139,19 @@ def unseen(evidence: Evidence, name: str) -> tuple[Reason, ...]:
             n = sum(count for _, count in hidden)
             why.append(because("unseen.skipped", element=name, file=drawing.path, kinds=some(kinds, 5), n=n))
     return tuple(why)
+
+
+def _bare(evidence: Evidence) -> list[str]:
+    """Drawings among several in which no rule had anything to look at: nothing in model space, or nothing visible."""
+    if len(evidence.delivery.drawings) == 1:
+        return []
+    there = {one.source for one in evidence.outcomes if not one.about_file}
+    looked = {
+        one.source
+        for one in evidence.outcomes
+        if not one.about_file and (one.checked or len(one.unjudged) or one.because.opens)
+    }
+    return [drawing.path for drawing in evidence.delivery.drawings if drawing.path in there - looked]
 
 
 def hidden_parts(part: Part, *, but: Collection[SkippedReason] = ()) -> list[tuple[str, int]]:
