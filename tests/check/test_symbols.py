@@ -125,6 +125,14 @@ def test_ends_that_meet_each_other_rest_on_no_symbol() -> None:
         assert told(Sheet(*lines).insert("S", CROSS, *corners).symbols()) == {"S": 4}
 
 
+def test_an_end_that_meets_a_wall_rests_on_no_symbol() -> None:
+    """Crosses where posts stand on a wall; the posts would stand there without them."""
+    spots = [(float(x), 0.0) for x in range(4)]
+    standing = [f"LINESTRING ({x} 0, {x} 1)" for x, _ in spots]
+    assert told(Sheet(WALL, *standing).insert("S", CROSS, *spots).symbols()) == {"S": 4}
+    assert told(Sheet(*standing).insert("S", CROSS, *spots).symbols()) == {}
+
+
 def test_an_insert_that_ends_on_a_line_is_linework_whatever_its_block() -> None:
     """A glazing bar among signs that were made of it."""
     bar = ["LINESTRING (0 0, 0.1 0)"]
