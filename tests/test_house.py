@@ -204,8 +204,10 @@ def catalogue(language: str, domain: str) -> dict[str, str]:
 
 @pytest.mark.parametrize("path", sorted(LOCALE.rglob("*.po")), ids=identify)
 def test_no_message_is_defined_twice(path: Path) -> None:
-    ids = re.findall(r'^msgid "([^"]+)"', path.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    text = path.read_text(encoding="utf-8")
+    ids = re.findall(r'^msgid "([^"]+)"', text, flags=re.MULTILINE)
     assert not {name for name in ids if ids.count(name) > 1}
+    assert not re.findall(r'^msgstr ".+"\n(?=msgstr ")', text, flags=re.MULTILINE), "two texts of one message"
 
 
 @pytest.mark.parametrize("domain", DOMAINS)
