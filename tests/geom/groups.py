@@ -168,7 +168,7 @@ def _heads(one: _Loose, two: _Loose, coincide: float, reach: float, aim: Aim) ->
         return None
     for u, v in product(one.heads, two.heads):
         before = min(float(step[:2] @ u), float(-step[:2] @ v))
-        facing = u @ v < -TURN and before >= -EPS
+        facing = u @ v < -TURN and before >= -coincide - EPS
         in_line = max(abs(cross(u, step[:2])), abs(cross(v, step[:2]))) <= coincide + EPS
         if facing and u @ v <= -np.cos(aim.alongside) and (before >= np.cos(aim.alongside) * flat or in_line):
             return apart

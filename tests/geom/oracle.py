@@ -212,7 +212,7 @@ def _missed(
         step = two.way[0] - place
         apart = float(np.hypot(np.hypot(*step[:2]), step[2]))
         if apart <= reach + EPS and any(
-            _faces(u, v, step[:2]) or closes(u, v, step[:2], reach)
+            _faces(u, v, step[:2], coincide) or closes(u, v, step[:2], reach)
             for u in aims(one.way, coincide, reach) for v in aims(two.way, coincide, reach)
         ):  # fmt: skip
             candidates.append((apart, other[0]))
@@ -259,8 +259,8 @@ def lies_ahead(
     return bool(turned and (cone or meets)) or bool(meets and on <= reach + EPS)
 
 
-def _faces(u: NDArray[np.float64], v: NDArray[np.float64], step: NDArray[np.float64]) -> bool:
-    return bool(u @ v < -TURN and step @ u >= -EPS and -step @ v >= -EPS)
+def _faces(u: NDArray[np.float64], v: NDArray[np.float64], step: NDArray[np.float64], coincide: float) -> bool:
+    return bool(u @ v < -TURN and min(step @ u, -step @ v) >= -coincide - EPS)
 
 
 def closes(u: NDArray[np.float64], v: NDArray[np.float64], step: NDArray[np.float64], reach: float) -> bool:

@@ -121,7 +121,8 @@ class Faced(NamedTuple):
 def faced(ends: LooseEnds, *, straight: float) -> Faced:
     """Ends that face each other, and ends of lines that would close a corner if both were drawn on.
 
-    Two ends face each other if their directions are opposed and neither lies behind the other. A corner is closed where
+    Two ends face each other if their directions are opposed and neither lies behind the other by more than places that
+    are one: the last chord of an arch that springs aside of its jamb leans a little. A corner is closed where
     what is drawn on of both, each by the radius at most, meets.
 
     Parameters
@@ -145,7 +146,7 @@ def faced(ends: LooseEnds, *, straight: float) -> Faced:
                 u, v = way[i], back[j]
                 opposed = np.einsum("ij,ij->i", u, v) < -_TURN
                 before = np.einsum("ij,ij->i", aside, u), -np.einsum("ij,ij->i", aside, v)
-                facing = opposed & (np.minimum(*before) >= -lines.slack)
+                facing = opposed & (np.minimum(*before) >= -ends.within)
                 meant |= facing | closing(aside, u, v, ends.radius, lines.slack)[1]
                 towards = (np.minimum(*before) >= np.cos(straight) * flat) | _in_line(aside, u, v, ends.within)
                 heads |= facing & towards & (np.einsum("ij,ij->i", u, v) <= -np.cos(straight))
