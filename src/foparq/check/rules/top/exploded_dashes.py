@@ -30,6 +30,9 @@ def exploded_dashes(
     ``alongside``. Gaps differ from their median by a fifth at most; no dash is longer than twelve gaps; and the dashes
     but for the outermost, one after the other or in turns of two or three, are as long as each other but for a fifth.
 
+    A row is none if other linework lies in more than half of its gaps and meets fewer than half of its dashes, or if
+    more than half of the ends at its gaps go beyond what they meet: a rail cut at its bars.
+
     Parameters
     ----------
     lines : Lines, n rows

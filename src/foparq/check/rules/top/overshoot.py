@@ -23,6 +23,7 @@ def overshoot(
     near as ``coincide`` in the plane and in depth; if the stub from the end to the last meeting is longer than
     ``coincide`` and at most ``reach``; and if the line goes on beyond the meeting for at least ``remainder`` times the
     length of the stub. Where a piece meets without crossing, the meeting place nearest the end is taken.
+    An end that faces the next of a row of dashes (TOP015) is none.
 
     Parameters
     ----------

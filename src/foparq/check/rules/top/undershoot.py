@@ -39,12 +39,14 @@ def undershoot(
     - linework that lies in the cone of half-angle ``ahead`` around the direction of the end, or that the end would meet
       if drawn on, unless it runs alongside, turned by less than ``alongside``; what is met within ``reach`` counts even
       then;
-    - an end that is not connected either and faces it: their directions are opposed, and neither lies behind the other;
+    - an end that is not connected either and faces it: their directions are opposed, and neither lies behind the other
+      by more than ``coincide``;
     - an end with which it would close a corner, if both were drawn on by at most ``reach``.
 
     The direction is that of the last segment, and of the chord over the last ``reach``; either may serve. Lines that
     merely lie side by side, such as mouldings cut at one break line, do not miss each other. Ends in a row of dashes
-    are told by TOP015 exploded-dashes. All others are free (TOP013).
+    are told by TOP015 exploded-dashes, and no end faces a dash of a row but its neighbours. All others are free
+    (TOP013).
 
     Parameters
     ----------
