@@ -132,6 +132,6 @@ def test_qgis_draws_every_feature_with_its_style(
     assert told["desenho_l"]["width"] > 60  # the station is 60 m wide, and seen from the front
     assert told["desenho_l"]["height"] > 8
     assert told["flags_p"]["ink"] > 1000  # pixels of its own colour
-    title = {"pt-BR": "<b>Linha aquém (undershoot)</b>", "en": "<b>Undershoot</b>"}[language]
+    title = {"pt-BR": "<b>Linha aquém</b>", "en": "<b>Undershoot</b>"}[language]
     assert any(tip.startswith(title) for tip in told["flags_p"]["tips"])
     assert all("&lt;" not in tip and "[%" not in tip for layer in told.values() for tip in layer["tips"])
