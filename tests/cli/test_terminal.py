@@ -85,7 +85,7 @@ def test_no_sentence_stands_twice(foparq: Command, tmp_path: Path) -> None:
 def test_a_sentence_in_a_pipe_is_one_line(foparq: Command, tmp_path: Path) -> None:
     out = foparq("check", deliver(tmp_path / "d") / "a.dxf", "--scale", "1:50")[1]
     line = next(line for line in out.splitlines() if line.startswith("  0.5,0.004,0  "))
-    assert line.endswith("(limit 0.5 mm).")
+    assert line.endswith("(0; limit 0.5 mm).")
     assert '(command "_.ZOOM" "_O" (handent "' in out
     assert '"EntityHandle"' in out
 
