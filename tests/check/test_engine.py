@@ -602,7 +602,9 @@ def test_a_ring_that_closes_in_plan_only_is_open_in_an_elevation(name: str, hole
     ring = f"POLYGON Z ((0 0 {ends[0]}, 9 0 0, 9 9 5, 0 9 5, 0 0 {ends[1]}){holes})"
     others = [f"POLYGON Z (({x} 20 0, {x + 1} 20.5 0, {x + 1} 21 3, {x} 20 0))" for x in range(3)]
     thing = drawing([*others, ring])
-    checked = check(replace(thing, plane=plane_of(name, thing.items.geometry), areas=("*",)))
+    # The areas lie aslant, which no named plane shows well: that is another question, and somebody has answered it.
+    plane = plane_of(name, thing.items.geometry)
+    checked = check(replace(thing, plane=plane, areas=("*",), confirmed=frozenset({"plane"})))
     assert not checked.log
     judged = outcome(checked, "area-overlap")
     assert [one.item for one in judged.aside] == ([] if name == "xy" else [thing.items.item[3]])
