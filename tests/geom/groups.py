@@ -27,7 +27,7 @@ class AmbiguousError(Exception):
 
 
 def short_corners(lines: list[Line], *, coincide: float, reach: float, aim: Aim) -> list[Told]:
-    """Nodes of ends that meet only each other, short of a line that does not end there."""
+    """Nodes of ends that meet only each other and are no line that goes on, short of a line that does not end there."""
     drawing = Drawing(lines)
     deep = drawing.lines
     ends = [
@@ -51,6 +51,10 @@ def short_corners(lines: list[Line], *, coincide: float, reach: float, aim: Aim)
         drop = np.abs(depth_at(drawing, third, share_of(near, shapely.Point(first[:2]))) - first[2])
         if np.any((flat <= 2 * coincide + EPS) & (drop <= 2 * coincide + EPS)):
             continue
+        if len(members) == 2:
+            u, v = (aims(drawing.walked(line, last=last), coincide, reach)[0] for line, last in members)
+            if -float(u @ v) > np.cos(aim.alongside):
+                continue
         missed = [hit for end in members for hit in _before(drawing, end, third, coincide, reach, aim)]
         if missed:
             least = min(missed)[0]

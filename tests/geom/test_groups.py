@@ -57,6 +57,10 @@ def corners(rng: Random) -> list[Way]:
             start = middle + rng.integers(-3, 4, 2) * TENTH
             end = middle + rng.uniform(0.001, 0.02) * np.array([np.cos(angle), np.sin(angle)])
             lines.append(np.array([start, end])[:: int(rng.choice([-1, 1]))])
+    if rng.random() < 0.5:  # a curve in single segments
+        steps = np.cumsum(rng.uniform(-0.3, 0.3, 6)) + rng.uniform(0, 2 * np.pi)
+        way = rng.uniform(0, 0.03, 2) + np.cumsum(0.004 * np.column_stack([np.cos(steps), np.sin(steps)]), axis=0)
+        lines += [way[n : n + 2] for n in range(5)]
     return on_grid(lines)
 
 

@@ -16,6 +16,8 @@ from foparq.geom.segments import at_share, nearest_share
 from foparq.geom.stretches import components
 from foparq.geom.targets import before
 
+_PAIR = 2  #: ends at one place that may be one line
+
 
 class Nodes(NamedTuple):
     """k places where ends meet nothing but each other."""
@@ -37,6 +39,8 @@ class _Members(NamedTuple):
 def short_nodes(lines: Polylines, aim: Aim, *, coincide: float, reach: float) -> Nodes:
     """Nodes of two ends or more, that meet nothing but each other, short of what one of them could run into.
 
+    Where just two lines go on in each other, turned by less than ``alongside``, they are one line, and no node.
+
     Parameters
     ----------
     lines : Polylines, n lines
@@ -51,16 +55,13 @@ def short_nodes(lines: Polylines, aim: Aim, *, coincide: float, reach: float) ->
     members = _members(lines, within)
     first = np.unique(members.node, return_index=True)[1]
     node, segment, connected = _near(lines, members, first, within, radius)
-    kept = ~connected[node]
+    passed = _going_on(lines, members, first, aim.alongside, within, radius)
+    kept = ~(connected | passed)[node]
     node, segment = node[kept], segment[kept]
     begin = np.searchsorted(members.node, node)
     pair, end = ragged(begin, np.searchsorted(members.node, node, side="right") - begin)
     asked, of = np.unique(end, return_inverse=True)
-    ends = LooseEnds(
-        given=lines, chains=Chains(lines, np.arange(len(lines.coordinates)), lines.line),
-        short=np.zeros(len(lines), dtype=bool), line=members.line[asked], vertex=members.vertex[asked],
-        forward=members.forward[asked], within=within, radius=radius,
-    )  # fmt: skip
+    ends = _ends(lines, members, asked, within, radius)
     piece = lines.segments(segment[pair])
     share = nearest_share(ends.place[of], piece.start, piece.end)
     aside = at_share(share, piece.start, piece.end) - ends.place[of]
@@ -71,6 +72,27 @@ def short_nodes(lines: Polylines, aim: Aim, *, coincide: float, reach: float) ->
     told = np.flatnonzero(np.isfinite(least.value))
     speaker = _speakers(lines, members)[told]
     return Nodes(members.line[speaker], members.vertex[speaker], least.value[told], least.line[told])
+
+
+def _ends(lines: Polylines, members: _Members, rows: Index, within: float, radius: float) -> LooseEnds:
+    return LooseEnds(
+        given=lines, chains=Chains(lines, np.arange(len(lines.coordinates)), lines.line),
+        short=np.zeros(len(lines), dtype=bool), line=members.line[rows], vertex=members.vertex[rows],
+        forward=members.forward[rows], within=within, radius=radius,
+    )  # fmt: skip
+
+
+def _going_on(
+    lines: Polylines, members: _Members, first: Index, alongside: float, within: float, radius: float
+) -> Flags:
+    """True (n,) for nodes of two ends whose last segments go on in each other."""
+    count = np.diff(np.append(first, len(members.node)))
+    pair = first[count == _PAIR]
+    way, _ = _ends(lines, members, np.concatenate([pair, pair + 1]), within, radius).directions
+    turn = np.einsum("ij,ij->i", way[: len(pair)], -way[len(pair) :])
+    passed = np.zeros(len(first), dtype=bool)
+    passed[count == _PAIR] = turn > np.cos(alongside)
+    return passed
 
 
 def _members(lines: Polylines, within: float) -> _Members:

@@ -18,8 +18,9 @@ def short_node(
     """Corner where only ends meet, short of a third line.
 
     A *node* is a place where two ends of lines or more meet, none farther than ``coincide`` from the next, and no line
-    that does not end there. It is **short** if the nearest line that one of its ends could run into, as in TOP011
-    undershoot, is at a distance d, coincide < d <= reach, and does not end there itself.
+    that does not end there; two ends whose last segments go on in each other, turned by less than ``alongside``, are
+    one line. It is **short** if the nearest line that one of its ends could run into, as in TOP011 undershoot, is at a
+    distance d, coincide < d <= reach, and does not end there itself.
 
     Parameters
     ----------
