@@ -51,6 +51,7 @@ class DrawingSubject(Subject):
         self.columns = Columns(part, hidden=profile.reading.hidden == "check")
         self._taken: dict[tuple[type, Patterns], Taken] = {}
         self._small: dict[float, Index] = {}
+        self._across: dict[float, float] = {}
         self._undeclared: tuple[str, ...] | None = None
 
     @property
@@ -107,11 +108,15 @@ class DrawingSubject(Subject):
             witnesses = against(self.drawing, max(dict(_agree(one)).get("agree", 0.0) for one in doubted))
             if len(witnesses) >= _WITNESSES or _ALONE & witnesses.keys():
                 return Doubt(Because.UNIT_CONTRADICTED, (f"unit: {unit.name}", *witnesses.values()))
-        if unit.origin is UnitOrigin.STATED and "unit" not in self.drawing.confirmed:
-            across = extent_off_sheet(self.drawing, visible)
-            if across:
-                return Doubt(Because.UNIT_CONTRADICTED, (f"unit: {unit.name}", f"extent: {across:.3g} m"))
+        claimed = unit.origin is UnitOrigin.STATED and "unit" not in self.drawing.confirmed
+        if claimed and (across := self._off_sheet(visible)):
+            return Doubt(Because.UNIT_CONTRADICTED, (f"unit: {unit.name}", f"extent: {across:.3g} m"))
         return self._plane_doubt if not self.drawing.symbols.broken else Doubt(Because(self.drawing.symbols.broken))
+
+    def _off_sheet(self, visible: float) -> float:
+        if visible not in self._across:
+            self._across[visible] = extent_off_sheet(self.drawing, visible)
+        return self._across[visible]
 
     @cached_property
     def _plane_doubt(self) -> Doubt:
