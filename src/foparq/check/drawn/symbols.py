@@ -20,7 +20,7 @@ from foparq.geom.standing import alone, fitting, joined
 from foparq.model.delivery import Delivery
 from foparq.model.drawing import Drawing, Skipped, SkippedReason
 from foparq.model.inputs import Lines
-from foparq.model.items import INSERT_END, Holder, Items, holders_of
+from foparq.model.items import Holder, Items, holders_of
 from foparq.model.layers import matches
 from foparq.model.symbols import SymbolBlock, Symbols
 from foparq.names import folded, of_kind
@@ -205,8 +205,8 @@ class _Inserts:
         known: dict[str, int] = {}
         self.text: Index = np.array([known.setdefault(text, len(known)) for text in holders.tolist()], dtype=np.intp)
         self.holder: list[Holder] = []
-        self.way: list[str] = []
-        numbers: dict[str, int] = {}
+        self._around: list[int] = []  # the insert that holds each
+        numbers: dict[tuple[int, Holder], int] = {}
         self.chain = [self._numbered(text, numbers) for text in known]
         depth = max(map(len, self.chain), default=0)
         of_text = (
@@ -215,16 +215,23 @@ class _Inserts:
         )
         self.levels = [level[self.text] for level in of_text]
 
-    def _numbered(self, text: str, numbers: dict[str, int]) -> list[int]:
+    def _numbered(self, text: str, numbers: dict[tuple[int, Holder], int]) -> list[int]:
         chain: list[int] = []
-        end = 0
         for holder in holders_of(text):
-            end = text.index(INSERT_END, end) + 1
-            if (number := numbers.setdefault(text[:end], len(self.holder))) == len(self.holder):
+            around = chain[-1] if chain else NOBODY
+            if (number := numbers.setdefault((around, holder), len(self.holder))) == len(self.holder):
                 self.holder.append(holder)
-                self.way.append(f"{self.way[chain[-1]]}/{holder.name}" if chain else holder.name)
+                self._around.append(around)
             chain.append(number)
         return chain
+
+    def way(self, number: int) -> str:
+        """The way to an insert, as in ``Items.inserts``."""
+        names = []
+        while number != NOBODY:
+            names.append(self.holder[number].name)
+            number = self._around[number]
+        return "/".join(reversed(names))
 
 
 def _shows_features(drawing: Drawing, lines: Lines, inserts: _Inserts, kinds: frozenset[str]) -> Flags:
@@ -278,7 +285,7 @@ def _told(
     for number, on in layers.items():
         mine = np.flatnonzero(symbol & (block == number))
         names = sorted({inserts.holder[n].block for n in chosen[mine].tolist()})
-        ways = sorted(inserts.way[n] for n in chosen[mine].tolist())
+        ways = sorted(inserts.way(n) for n in chosen[mine].tolist())
         blocks.append(
             SymbolBlock(
                 name=names[0], inserts=len(mine), near=int(np.count_nonzero(near[mine])),
