@@ -20,6 +20,20 @@ SHELF = Path(os.environ.get("FOPARQ_SHARED") or REPOSITORY.parent / "shared")
 EXPECTED = bool(os.environ.get("FOPARQ_SHARED") or os.environ.get("CI") == "true") and str(SHELF) != "none"
 
 
+KERNELS = REPOSITORY / "src" / "foparq" / "mesh"
+
+
+def forget_stale() -> None:
+    """Remove what was compiled before the newest source: the compiler of kernels looks at each one's own file only."""
+    newest = max(path.stat().st_mtime for path in KERNELS.glob("*.py"))
+    for kept in (KERNELS / "__pycache__").glob("*.nb[ic]"):
+        if kept.stat().st_mtime < newest:
+            kept.unlink(missing_ok=True)
+
+
+forget_stale()
+
+
 def pytest_report_header() -> list[str]:
     """Versions of what decides geometry and formats."""
     import ezdxf

@@ -87,7 +87,7 @@ def test_third_party_imports_stay_on_their_floor(path: Path) -> None:
             )
 
 
-@pytest.mark.parametrize("path", [p for p in FILES if {"check", "geom"} & set(p.parts)], ids=identify)
+@pytest.mark.parametrize("path", [p for p in FILES if {"check", "geom", "mesh"} & set(p.parts)], ids=identify)
 def test_nothing_is_repaired(path: Path) -> None:
     for node in ast.walk(parse(path)):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):

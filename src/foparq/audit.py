@@ -147,9 +147,9 @@ def audit_to(
 def check_files(
     paths: Sequence[Path], *, profile: Profile, scale: float | None, unit: str | None, plane: str | None,
     areas: tuple[str, ...], bind: tuple[tuple[str, ...], ...] = (), ignore_layers: tuple[str, ...] = (), language: str,
-    progress: Progress | None = None,
+    closed: bool | None = None, rims: int | None = None, progress: Progress | None = None,
 ) -> Audit:  # fmt: skip
-    """Check loose drawings without a manifest; there is no verdict on a delivery.
+    """Check loose drawings and meshes without a manifest; there is no verdict on a delivery.
 
     Parameters
     ----------
@@ -159,15 +159,13 @@ def check_files(
         What one drawing unit is; ``None``: as the file says.
     plane : str or None
         ``"xy"``, ``"xz"``, ``"yz"`` or ``"fit"``.
-    areas : tuple of str
-        Patterns of the layers whose closed lines bound areas of a coverage.
-    bind, ignore_layers
-        Layers that are drawn as one, and those that are not checked, as for :func:`foparq.read.delivery.read_loose`.
+    areas, bind, ignore_layers, closed, rims
+        As for :func:`foparq.read.delivery.read_loose`.
     """
     validate_checks(profile)
     delivery, log = read_loose(
         paths, profile=profile, scale=scale, unit=unit, plane=plane, areas=areas, bind=bind,
-        ignore_layers=ignore_layers, progress=progress,
+        ignore_layers=ignore_layers, closed=closed, rims=rims, progress=progress,
     )  # fmt: skip
     return _judged(delivery, log, Terms(profile=profile, scale=scale), language, progress, loose=True)
 

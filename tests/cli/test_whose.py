@@ -110,13 +110,13 @@ NAMED: dict[str, tuple[str, dict[str, str], tuple[str, ...]]] = {
     "a folder called like the shipped one": ("et-doc-foparq-a/r.toml", {"et-doc-foparq-a/r.toml": OWN + EASY}, ("Q1",)),
     "easy limits in what it extends": (
         "r.toml", {"r.toml": 'extends = "base.toml"\nname = "caderno"\n', "base.toml": 'name = "b"\n' + BARE},
-        ("Q1, Q2, Q3, Q4, Q5, Q6", "undershoot"),
+        ("Q1, Q2, Q3, Q3-mesh, Q4, Q5, Q6", "undershoot"),
     ),
     "another class that asks for less": (
         "r.toml", {"r.toml": OWN + 'product_class = "B"\n' + EASY.replace("true", "false")},
         ("Compared with et-doc-foparq-a", "elements not required: Q1"),
     ),
-    "nothing asked for": ("r.toml", {"r.toml": 'name = "caderno"\n' + BARE}, ("Q1, Q2, Q3, Q4, Q5, Q6",)),
+    "nothing asked for": ("r.toml", {"r.toml": 'name = "caderno"\n' + BARE}, ("Q1, Q2, Q3, Q3-mesh, Q4, Q5, Q6",)),
     "rules bound to no layer": (
         "r.toml", {"r.toml": OWN + '[[check]]\nrule = "invalid-geometry"\nseverity = "note"\nlayers = []\n'},
         ("invalid-geometry weighs as note instead of major", "invalid-geometry looks at the layers"),

@@ -139,7 +139,8 @@ def test_contents_of_a_kind_that_nobody_knows_leave_the_question_open() -> None:
 def test_what_shows_no_linework_leaves_nothing_open() -> None:
     closed = {reason.value for reason in SkippedReason if not reason.opens}
     assert closed == {
-        "above-header", "attributes", "degenerate", "ignored-layer", "image", "infinite-line", "no-geometry",
+        "above-header", "attributes", "degenerate", "ignored-layer", "image", "infinite-line", "lines-and-points",
+        "materials", "no-geometry", "no-surface",
         "not-asked", "not-plotted", "ole", "paper-space", "point-symbol", "raster", "trigger", "unlisted-geometry",
         "unlisted-view", "unlisted-virtual-table", "viewport", "wipeout", "xclip-ignored",
     }  # fmt: skip

@@ -13,6 +13,7 @@ from foparq.model.part import Part
 from foparq.profile.schema import LimitsSpec
 
 _SHARE = 3  #: of all time, the part that one call may use
+_TIMES = 6  #: of what a part itself holds, the memory that rules may use beyond their bound
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,4 +56,4 @@ def budget_of(part: Part, limits: LimitsSpec, spent: float) -> Budget:
         Processor seconds that were used before.
     """
     total = limits.check_seconds + limits.check_seconds_per_million * part.vertices / 1e6
-    return Budget(max(0.0, total - spent), total / _SHARE, limits.check_memory)
+    return Budget(max(0.0, total - spent), total / _SHARE, limits.check_memory + _TIMES * part.held)

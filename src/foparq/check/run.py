@@ -79,6 +79,7 @@ def check_part(
     """
     results: list[Result] = []
     spent = 0.0
+    unready = _prepared(part)
     while True:
         budget = budget_of(part, profile.limits, spent)
         begun: Begun | None = None
@@ -102,7 +103,18 @@ def check_part(
             results.extend(_rest(part, profile, results, broken))
             break
         results.append(Result(begun.check, _broken(begun.outcome, broken), trace=broken.trace))
-    return _joined(results)
+    return _joined(results, unready)
+
+
+def _prepared(part: Part) -> str:
+    """Make ready what the rules on a part need; the trace of what went wrong, which these rules will meet again."""
+    kind = kind_of_subject(part)
+    try:
+        if kind is not None:
+            kind.prepare()
+    except Exception:  # noqa: BLE001 - our fault: the rules that need it crash and are told
+        return f"{part.path}\n{traceback.format_exc()}"
+    return ""
 
 
 def results_of(part: Part, profile: Profile, scale: float | None, done: Sequence[Result]) -> Iterator[Begun | Result]:
@@ -219,7 +231,7 @@ def _looked(
     deviations = found if isinstance(found, Deviations) else None
     hits = found.beyond(_limit(call)) if isinstance(found, Deviations) else found
     hits = hits.take(_told(hits, seen))
-    rows = seen.inputs[0].row[hits.row]
+    rows = seen.inputs[0].row[union(hits.row, hits.also[~seen.aside[0][hits.also]])]
     outcome = replace(
         outcome,
         status=Status.FAULTY if len(hits) else Status.CLEAN,
@@ -227,8 +239,18 @@ def _looked(
         found=len(hits),
         faulty=union(rows[rows >= 0]),
         deviations=deviations,
+        total=float(hits.size.sum()),
+        otherwise=_otherwise(call, subject, seen),
     )
     return outcome, findings_of(call, subject, seen.inputs, hits) if len(hits) and not call.spec.helper else None
+
+
+def _otherwise(call: Call, subject: Subject, seen: Judged) -> tuple[str, int] | None:
+    """Faults in the second reading of the input, if the part has one."""
+    if len(seen.inputs) > 1 or len(seen.inputs[0]) == 0:
+        return None
+    second = subject.otherwise(call.rule.subject, call.layers[0])
+    return None if second is None else (second[0], len(call.rule.check(second[1], **call.tolerances)))
 
 
 def _limit(call: Call) -> float:
@@ -243,10 +265,10 @@ def _told(found: Hits, seen: Judged) -> np.ndarray:
     return told
 
 
-def _joined(results: Sequence[Result]) -> Checked:
+def _joined(results: Sequence[Result], unready: str) -> Checked:
     outcomes = sorted((result.outcome for result in results), key=lambda outcome: (outcome.rule, outcome.scope))
     return Checked(
         outcomes=tuple(outcomes),
         findings=join_findings([result.findings for result in results if result.findings is not None]),
-        log=tuple(dict.fromkeys(result.trace for result in results if result.trace)),
+        log=tuple(dict.fromkeys(trace for trace in (unready, *(result.trace for result in results)) if trace)),
     )

@@ -60,9 +60,17 @@ class Subject(ABC):
 
     #: names of rules whose outcome :meth:`doubt` reads: they run first
     leading: tuple[str, ...] = ()
+    #: items have no name that another file of the same thing would give them: findings are known by place alone
+    named_by_place: bool = False
+    #: lengths have a unit; where they have none, sizes of findings are in units of the file
+    measured: bool = True
 
     @abstractmethod
     def __init__(self, part: Part, profile: Profile) -> None: ...
+
+    @classmethod  # noqa: B027 - most kinds of parts need nothing
+    def prepare(cls) -> None:
+        """Make ready, once in this process and outside of the bounds of rules, what they need: compiled code."""
 
     @property
     @abstractmethod
@@ -97,6 +105,10 @@ class Subject(ABC):
     def drawn_again(self, kind: type, layers: Patterns, rows: Index, within: float) -> Index:  # noqa: ARG002 - kinds that know layers use it
         """Rows of the part's items that only repeat, within metres, what another layer draws; ``rows`` are left out."""
         return rows[:0]
+
+    def otherwise(self, kind: type, layers: Patterns) -> tuple[str, Named] | None:  # noqa: ARG002 - kinds with two readings use it
+        """Name and input of a second reading: its faults are counted beside and decide nothing; ``None``: no other."""
+        return None
 
     @cached_property
     def _reduced(self) -> dict[tuple[type, Patterns, bytes], Named]:

@@ -43,6 +43,8 @@ def command(say: Words) -> click.Command:
             click.Option(["--areas"], metavar="LAYER", multiple=True, help=say("cli.check.areas")),
             click.Option(["--bind"], metavar="LAYER,LAYER", multiple=True, help=say("cli.check.bind")),
             click.Option(["--ignore-layers"], metavar="LAYER", multiple=True, help=say("cli.check.ignore-layers")),
+            click.Option(["--closed/--open", "closed"], default=None, help=say("cli.check.closed")),
+            click.Option(["--rims"], metavar="N", type=click.IntRange(1, 10**6), help=say("cli.check.rims")),
             click.Option(["--select"], metavar="RULE", multiple=True, help=say("cli.check.select")),
             click.Option(["--ignore"], metavar="RULE", multiple=True, help=say("cli.check.ignore")),
             click.Option(

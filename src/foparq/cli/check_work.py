@@ -16,6 +16,7 @@ from foparq.evaluate.exit_of import exit_of
 from foparq.profile.adjust import choose, with_settings
 from foparq.profile.load import load_profile
 from foparq.profile.schema import Profile
+from foparq.read.mesh.take import holds_mesh
 from foparq.report.files import Written, writable, write_reports
 from foparq.report.harmless import log_text
 from foparq.report.words import Words
@@ -25,25 +26,28 @@ from foparq.units import parse_length_unit, parse_scale
 def check_work(
     say: Words, *, files: tuple[Path, ...], profile: str, scale: str | None, unit: str | None, plane: str | None,
     areas: tuple[str, ...], bind: tuple[str, ...], ignore_layers: tuple[str, ...], select: tuple[str, ...],
-    ignore: tuple[str, ...], settings: tuple[str, ...], out: Path | None, form: str,
+    ignore: tuple[str, ...], settings: tuple[str, ...], closed: bool | None,
+    rims: int | None, out: Path | None, form: str,
 ) -> int:  # fmt: skip
     """Check loose drawings, tell what was found; returns the exit code."""
     chosen = _profile(profile, select, ignore, settings)
     if all(spec.helper for spec in chosen.checks):
         raise UsageError("usage.no-rules", example="--select TOP")
     stated = scale or chosen.scale
-    if stated is None:
+    if stated is None and not all(map(holds_mesh, files)):
         raise UsageError("usage.scale", example="--scale 1:50")
+    if closed and rims:
+        raise UsageError("usage.closed-rims", value=f"--closed --rims {rims}", example=f"--rims {rims}")
     if unit is not None:
         parse_length_unit(unit)
     if out is not None:
         writable(out)
     with progress_on_stderr(say) as progress:
         done = check_files(
-            files, profile=chosen, scale=parse_scale(stated), unit=unit, plane=plane, areas=areas,
+            files, profile=chosen, scale=parse_scale(stated) if stated else None, unit=unit, plane=plane, areas=areas,
             bind=tuple(_patterns(one) for one in bind),
             ignore_layers=tuple(pattern for one in ignore_layers for pattern in _patterns(one)),
-            language=say.language, progress=progress,
+            closed=closed, rims=rims, language=say.language, progress=progress,
         )  # fmt: skip
         written = Written(record=done.record, paths=(), log=done.log)
         if out is not None:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from foparq.cli.init_names import aids_like, class_like, facade_like
 from foparq.profile.examples import EXAMPLES
 from foparq.read.table.revisions import revision_of
-from foparq.read.table.survey import FoundDrawing, FoundTable, Other, Survey
+from foparq.read.table.survey import FoundDrawing, FoundMesh, FoundTable, Other, Survey
 from foparq.report.words import Words, printable
 
 PROFILE = "et-doc-foparq-a"
@@ -46,6 +46,8 @@ def manifest_text(found: Survey, title: str, say: Words) -> str:
             commented = (line if line.startswith("#") else f"# {line}" for line in proposed)
             proposed = [*_comment(asked), *commented]
         lines += ["", *proposed]
+    for mesh in found.meshes:
+        lines += ["", *_mesh(mesh, say)]
     for role in ("features", "checkpoints", "distances"):
         lines += ["", *_comment(say(f"cli.manifest.{role}")), *_table(role, found.tables.get(role, ()), say)]
     if found.others:
@@ -95,6 +97,19 @@ def _drawing(drawing: FoundDrawing, found: Survey, say: Words) -> list[str]:
         '# areas = ["REVESTIMENTO"]',
         *_ignored(drawing, found, say),
         *_layers(drawing, found, say),
+    ]
+
+
+def _mesh(mesh: FoundMesh, say: Words) -> list[str]:
+    unit = mesh.header or "m"
+    says = say("cli.manifest.unit-says", unit=mesh.header) if mesh.header else say("cli.manifest.mesh-unit")
+    x, y, z = mesh.extent
+    return [
+        "[[mesh]]",
+        f"path = {_quoted(mesh.path)}",
+        *_comment(say("cli.manifest.mesh", faces=mesh.faces, x=x, y=y, z=z)),
+        f"# unit = {_quoted(unit)}  # {says}",
+        f"# closed = false  # {say('cli.manifest.closed')}",
     ]
 
 

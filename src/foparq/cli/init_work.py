@@ -23,7 +23,7 @@ def init_work(say: Words, *, folder: Path, force: bool) -> int:
     if path.exists() and not force:
         raise ManifestError("manifest.exists", file=str(path), example=f'foparq init "{folder}" --force')
     found = survey_folder(folder, load_profile(PROFILE))
-    if not found.drawings:
+    if not (found.drawings or found.meshes):
         raise _nothing(folder, found, say)
     try:
         path.write_text(manifest_text(found, folder.resolve().name, say), encoding="utf-8")

@@ -10,6 +10,7 @@ from foparq.cli.lines import styled, tell, wrapped
 from foparq.findings.table import Severity
 from foparq.report.record import AuditRecord
 from foparq.report.rows import finding_rows
+from foparq.report.second_reading import found_words
 from foparq.report.words import Words, printable
 
 _SHOWN = 10  #: findings of one kind that the text names
@@ -36,7 +37,20 @@ def show_findings(record: AuditRecord, say: Words) -> None:
             if count > _SHOWN:
                 tell(say("cli.more", count=count - _SHOWN), "  ")
             tell(say(f"rules.{rule}.mend"), "  > ")
+    _otherwise(record, say)
     _ways(rows, say)
+
+
+def _otherwise(record: AuditRecord, say: Words) -> None:
+    """Faults of the second reading of a part, where it has others than the one that decides."""
+    told = [
+        f"{outcome.name} {found_words(say, outcome)}"
+        for outcome in record.outcomes
+        if outcome.otherwise and outcome.otherwise[1] != outcome.found
+    ]
+    if told:
+        click.echo()
+        tell(say("cli.otherwise", rules=told))
 
 
 def _ways(rows: list[dict[str, Any]], say: Words) -> None:

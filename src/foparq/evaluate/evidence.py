@@ -13,6 +13,7 @@ from foparq.findings.outcome import Outcome
 from foparq.findings.ties import Ties
 from foparq.model.delivery import LOST, Delivery
 from foparq.model.drawing import Drawing, SkippedReason
+from foparq.model.mesh import Mesh
 from foparq.model.part import Part
 from foparq.model.statements import Confirmation
 from foparq.profile.elements import ElementSpec, LimitedSpec
@@ -39,6 +40,11 @@ class Evidence:
     def files(self, role: str) -> str:
         """Paths of the files of one role, as one text."""
         return ", ".join(source.path for source in self.delivery.sources if source.role == role)
+
+    @property
+    def meshes_only(self) -> bool:
+        """Whether meshes were named and no drawing: what is asked of drawings does not concern the delivery."""
+        return bool(self.files("mesh")) and not self.files("drawing")
 
     @property
     def refused(self) -> bool:
@@ -71,7 +77,7 @@ def element(
     spec: ElementSpec, measure: str, judgement: Judgement, *, id: str | None = None, scope: str, n: int = 0,  # noqa: A002
     value: float | None = None, limit: float | None = None, comparison: str, unit: str | None = None,
     parameters: Iterable[tuple[str, float, str]] = (), method: str, details: tuple[tuple[str, float, float], ...] = (),
-    kind: str | None = None, residuals: Residuals | None = None,
+    kind: str | None = None, residuals: Residuals | None = None, required: bool | None = None,
 ) -> Element:  # fmt: skip
     """Element of a measure of the catalogue.
 
@@ -85,12 +91,15 @@ def element(
         As in :class:`Element`. Numbers that are not finite are left out.
     unit, kind : str, optional
         Unit and data quality element, where they are not the measure's own.
+    required : bool, optional
+        False where the delivery holds nothing that the element speaks of; as the profile says if left out.
     """
     entry = measures()[measure]
     return Element(
         id=id or spec.id, element=kind or entry.element, measure_id=entry.id, measure_name=entry.name, scope=scope,
         value=value if value is not None and _finite(value) else None, unit=entry.unit if unit is None else unit,
-        limit=limit, comparison=comparison, n=n, status=judgement.status, required=spec.required, why=judgement.why,
+        limit=limit, comparison=comparison, n=n, status=judgement.status,
+        required=spec.required if required is None else required, why=judgement.why,
         parameters=tuple(row for row in parameters if _finite(row[1])), method=method, details=details,
         residuals=residuals,
     )  # fmt: skip
@@ -154,6 +163,26 @@ def _bare(evidence: Evidence) -> list[str]:
     return [drawing.path for drawing in evidence.delivery.drawings if drawing.path in there - looked]
 
 
+def unseen_meshes(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Meshes, and parts of them, that no check saw.
+
+    Parameters
+    ----------
+    name : str
+        Id of the element, for the reasons.
+    """
+    why: list[Reason] = []
+    if lost := evidence.lost("mesh"):
+        why.append(because("unseen.mesh", element=name, files=lost))
+    for mesh in evidence.delivery.meshes:
+        if repairs := sum(repair.loses for repair in mesh.reading.repairs):
+            why.append(because("unseen.repaired", element=name, file=mesh.path, n=repairs))
+        if hidden := hidden_parts(mesh):
+            kinds, n = [kind for kind, _ in hidden], sum(count for _, count in hidden)
+            why.append(because("unseen.skipped", element=name, file=mesh.path, kinds=some(kinds, 5), n=n))
+    return tuple(why)
+
+
 def hidden_parts(part: Part, *, but: Collection[SkippedReason] = ()) -> list[tuple[str, int]]:
     """Things of a part that no check saw and behind which faults may hide, with their numbers, in order.
 
@@ -162,7 +191,7 @@ def hidden_parts(part: Part, *, but: Collection[SkippedReason] = ()) -> list[tup
     but : collection of SkippedReason
         Reasons that are left out.
     """
-    if not isinstance(part, Drawing):
+    if not isinstance(part, Drawing | Mesh):
         return []
     found: Counter[str] = Counter()
     for skipped in part.reading.skipped:
@@ -174,7 +203,7 @@ def hidden_parts(part: Part, *, but: Collection[SkippedReason] = ()) -> list[tup
 def named_parts(part: Part) -> list[str]:
     """The same with their first handles: ``"1 × LINE (2F)"``, ``"9 × MLINE (30, 31, +7)"``."""
     handles: dict[str, list[str]] = defaultdict(list)
-    if isinstance(part, Drawing):
+    if isinstance(part, Drawing | Mesh):
         for skipped in part.reading.skipped:
             if skipped.reason.opens:
                 handles[skipped.thing] += skipped.handles

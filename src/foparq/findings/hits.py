@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What a rule returns: faulty things or measured differences, as columns."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -18,13 +18,15 @@ class Hits:
     where: Geometries  #: (k,) place to look at, in the coordinates of that input; empty if the fault has none
     size: Reals  #: (k,) magnitude, in the unit the rule declares
     other: Index  #: (k,) row of the second item involved, in the second input if there is one, or ``NOBODY``
+    #: (m,) further rows of the first input at fault, where one hit tells of many: they count in rates
+    also: Index = field(default_factory=lambda: np.empty(0, dtype=np.intp))
 
     def __len__(self) -> int:
         return len(self.row)
 
     def take(self, rows: Index | Flags) -> "Hits":
-        """The chosen hits, in that order."""
-        return Hits(row=self.row[rows], where=self.where[rows], size=self.size[rows], other=self.other[rows])
+        """The chosen hits, in that order; further rows at fault stay."""
+        return replace(self, row=self.row[rows], where=self.where[rows], size=self.size[rows], other=self.other[rows])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,7 +52,7 @@ class Deviations:
         return hits(self.row[far], self.where[far], length[far], self.other[far])
 
 
-def hits(row: Index, where: Geometries, size: Reals, other: Index | None = None) -> Hits:
+def hits(row: Index, where: Geometries, size: Reals, other: Index | None = None, also: Index | None = None) -> Hits:
     """Hits in their defined order.
 
     Parameters
@@ -60,6 +62,8 @@ def hits(row: Index, where: Geometries, size: Reals, other: Index | None = None)
     size : (k,) float
     other : (k,) int, optional
         ``NOBODY`` everywhere if left out.
+    also : (m,) int, optional
+        Further rows at fault.
 
     Returns
     -------
@@ -71,9 +75,13 @@ def hits(row: Index, where: Geometries, size: Reals, other: Index | None = None)
     row = np.asarray(row, dtype=np.intp)
     others = np.full(len(row), NOBODY, dtype=np.intp) if other is None else np.asarray(other, dtype=np.intp)
     places = np.asarray(where, dtype=object)
-    corner = np.round(shapely.bounds(places), 6) if len(row) else np.zeros((0, 4))
+    with np.errstate(over="ignore"):  # coordinates may be anything
+        corner = np.round(shapely.bounds(places), 6) if len(row) else np.zeros((0, 4))
     order = np.lexsort((corner[:, 1], corner[:, 0], others, row))
-    return Hits(row=row[order], where=places[order], size=np.asarray(size, dtype=float)[order], other=others[order])
+    return Hits(
+        row=row[order], where=places[order], size=np.asarray(size, dtype=float)[order], other=others[order],
+        also=np.empty(0, dtype=np.intp) if also is None else np.asarray(also, dtype=np.intp),
+    )  # fmt: skip
 
 
 def no_hits() -> Hits:

@@ -51,7 +51,10 @@ class Outcome:
     status: Status
     checked: int  #: items judged: the denominator of every rate
     found: int  #: hits
+    #: name of a second reading of the part, and hits in it, which decide nothing; ``None``: it has none
+    otherwise: tuple[str, int] | None = None
     faulty: Index  #: rows of the part's items at fault, distinct
+    total: float = 0.0  #: sum of the sizes of all hits, in the rule's unit
     unjudged: Index = field(default_factory=_nothing)  #: rows of the part's items that were set aside, distinct
     small: Index = field(default_factory=_nothing)  #: rows of the part's items it concerns, too small to be seen
     again: Index = field(default_factory=_nothing)  #: rows of the part's items that only repeat others: judged once

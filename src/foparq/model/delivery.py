@@ -4,7 +4,8 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from foparq.model.drawing import Drawing, Skipped
+from foparq.model.drawing import Drawing, Repair, Skipped
+from foparq.model.mesh import Mesh
 from foparq.model.part import Part
 from foparq.model.statements import Confirmation, Contract, Decision
 from foparq.model.tables import Checkpoints, Distances, FeatureList
@@ -29,7 +30,7 @@ class Source:
     """One file of the delivery."""
 
     path: str  #: relative to the delivery, with ``/``
-    role: str  #: ``drawing``, ``checkpoints``, ``distances``, ``features``, ``manifest`` or ``other``
+    role: str  #: ``drawing``, ``mesh``, ``checkpoints``, ``distances``, ``features``, ``manifest`` or ``other``
     sha256: str  #: of the delivered bytes; ``""`` if missing
     bytes: int
     status: SourceStatus
@@ -58,3 +59,22 @@ class Delivery:
     def drawings(self) -> tuple[Drawing, ...]:
         """The parts that are drawings."""
         return tuple(part for part in self.parts if isinstance(part, Drawing))
+
+    @property
+    def metres(self) -> dict[str, float | None]:
+        """Metres in one unit of each drawing and mesh, by path; ``None`` where nobody knows."""
+        return {part.path: part.unit.metres for part in self._files}
+
+    @property
+    def repairs(self) -> dict[str, tuple[Repair, ...]]:
+        """What had to be mended in memory to read each drawing and mesh, by path."""
+        return {part.path: part.reading.repairs for part in self._files}
+
+    @property
+    def _files(self) -> tuple[Drawing | Mesh, ...]:
+        return tuple(part for part in self.parts if isinstance(part, Drawing | Mesh))
+
+    @property
+    def meshes(self) -> tuple[Mesh, ...]:
+        """The parts that are meshes."""
+        return tuple(part for part in self.parts if isinstance(part, Mesh))

@@ -62,6 +62,11 @@ class SkippedReason(StrEnum):
     VIRTUAL_TABLE = "virtual-table"
     # of a table of points, distances or features
     ABOVE_HEADER = "above-header"
+    # of a mesh
+    LINES_AND_POINTS = "lines-and-points"  #: beside the faces
+    MATERIALS = "materials"  #: a library of materials that is not there, or may not be opened
+    NO_SURFACE = "no-surface"  #: known to hold no face: cameras, lights
+    UNKNOWN_ELEMENT = "unknown-element"  #: nobody knows whether it is a surface
 
     @property
     def opens(self) -> bool:
@@ -77,7 +82,10 @@ _NO_LINEWORK = frozenset({
     SkippedReason.IGNORED_LAYER,  # somebody's statement: evaluated by itself
     SkippedReason.IMAGE,  # the photograph that was drawn over
     SkippedReason.INFINITE_LINE,  # an aid of construction, not plotted as drawing
+    SkippedReason.LINES_AND_POINTS,  # no surface, and a mesh is delivered for its surface
+    SkippedReason.MATERIALS,  # how a surface looks, not where it is: the image that is missing is told by itself
     SkippedReason.NO_GEOMETRY,  # nothing is drawn
+    SkippedReason.NO_SURFACE,  # cameras and lights of a mesh
     SkippedReason.NOT_ASKED,  # the manifest names what is delivered
     SkippedReason.NOT_PLOTTED,  # no sheet shows it: evaluated by itself where it is most of the drawing
     SkippedReason.OLE,  # a table or text of another program
@@ -126,11 +134,11 @@ class Repair:
 
     @property
     def loses(self) -> bool:
-        """Whether something that was drawn may be lost by it; how names are read loses nothing."""
-        return self.code not in _NAMES_ONLY
+        """Whether something that was drawn may be lost by it; how names are read loses nothing, nor does padding."""
+        return self.code not in _LOSES_NOTHING
 
 
-_NAMES_ONLY = frozenset({"code-page-unknown"})
+_LOSES_NOTHING = frozenset({"code-page-unknown", "mesh-trailing-bytes"})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

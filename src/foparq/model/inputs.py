@@ -8,7 +8,7 @@ defined order that does not depend on the order of the file.
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 import shapely
@@ -20,13 +20,40 @@ from foparq.geom.repeats import drawn_again
 from foparq.model.layers import bonds
 
 
+class Numbered:
+    """Names that are made when they are asked for: a letter, and a number that counts things of the file from 0.
+
+    A column of ten million names would take a gigabyte; only those of faults are ever read.
+
+    Examples
+    --------
+    >>> Numbered("f", np.array([4, 7]))[np.array([1])].tolist()
+    ['f7']
+    """
+
+    def __init__(self, letter: str, number: Index) -> None:
+        self.letter = letter
+        self.number = number
+
+    def __len__(self) -> int:
+        return len(self.number)
+
+    def __getitem__(self, rows: Any) -> Any:  # noqa: ANN401 - as of an array of texts
+        if np.ndim(self.number[rows]) == 0:
+            return f"{self.letter}{self.number[rows]}"
+        return np.array([f"{self.letter}{n}" for n in self.number[rows].tolist()], dtype=object)
+
+
+Names = Texts | Numbered
+
+
 @dataclass(frozen=True, kw_only=True)
 class Named:
     """Columns that name a row in the file; every input of a rule has them. n rows."""
 
     layer: Texts  #: (n,)
-    item: Texts  #: (n,) unique id in the drawing; ``""`` where no item is meant
-    handle: Texts  #: (n,) as written in the file
+    item: Names  #: (n,) unique id in the drawing; ``""`` where no item is meant
+    handle: Names  #: (n,) as written in the file
     inserts: Texts  #: (n,) chain of block inserts
     row: Index  #: (n,) row in the drawing's items; -1 where no item is meant
 

@@ -26,6 +26,11 @@ class Part(ABC):
         """Size of the part, for bounds of time."""
 
     @property
+    def held(self) -> int:
+        """Bytes of its columns, where these may be many: rules may use some times as much beyond their bound."""
+        return 0
+
+    @property
     def rows(self) -> Index:
         """Rows of the features in their table."""
         return np.arange(self.features)

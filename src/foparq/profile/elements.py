@@ -129,6 +129,12 @@ class FoundRateSpec(RulesSpec):
     KIND = "found-rate"
 
 
+class SurfaceRateSpec(RulesSpec):
+    """Share of the surface of meshes that is at fault, by faces and by area."""
+
+    KIND = "surface-rate"
+
+
 class CommissionSpec(LimitedSpec):
     """Delivered features that the list does not allow."""
 

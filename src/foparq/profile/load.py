@@ -33,6 +33,7 @@ _TOP_KEYS = {
     "completeness",
     "evidence",
     "linework",
+    "mesh",
     "limits",
     "check",
     "element",

@@ -203,6 +203,9 @@ def _in_reading(own: Profile, other: Profile, scale: float) -> Iterator[Looser]:
         ("reading.visible", own.reading.visible, other.reading.visible, _SMALLER),
         ("limits.written", own.limits.written, other.limits.written, _SMALLER),
     ]
+    if own.mesh.weld == "none":
+        # By their numbers two shells at one place have nothing in common.
+        rows.append(("mesh.weld", own.mesh.weld, other.mesh.weld, _DIFFERENT))
     if own.reading.blocks == "skip":
         rows.append(("reading.blocks", own.reading.blocks, other.reading.blocks, _DIFFERENT))
     if own.completeness and other.completeness:

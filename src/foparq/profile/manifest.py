@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, get_args
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, ValidationInfo, field_validator
 
 from foparq.profile.quantities import LengthOnObject, ScaleText, Strict
 from foparq.units import parse_length_unit
@@ -70,6 +70,26 @@ class DrawingSection(Strict):
     ] = ()  #: groups of layers that are drawn as one
     ignore_layers: tuple[str, ...] = ()  #: layers that are not checked
     layers: tuple[str, ...] = ()  #: tables of a GeoPackage to read; all if left out
+
+
+class MeshSection(Strict):
+    """``[[mesh]]``: one mesh."""
+
+    path: str
+    unit: UnitName | None = None  #: of its coordinates
+    closed: bool | None = None  #: false: the surface has a rim, as the open base of a bust
+    rims: Annotated[int, Field(ge=1, le=10**6, strict=True)] | None = (
+        None  #: how many; left out: one, if it is not closed
+    )
+    facade: str = ""
+    up: Literal["x", "y", "z"] | None = None  #: axis that points up; left out: as the format says, else z
+
+    @field_validator("rims")
+    @classmethod
+    def _open(cls, value: int | None, info: ValidationInfo) -> int | None:
+        if value is not None and info.data.get("closed"):
+            raise ValueError("a closed surface has no rim")
+        return value
 
 
 class TableSection(Strict):
@@ -163,6 +183,7 @@ class Manifest(Strict):
 
     delivery: DeliverySection = DeliverySection()
     drawing: tuple[DrawingSection, ...] = ()
+    mesh: tuple[MeshSection, ...] = ()
     features: TableSection | None = None
     checkpoints: SurveySection | None = None
     distances: SurveySection | None = None

@@ -37,6 +37,7 @@ class LimitsSpec(Strict):
 
     entities: int = 2_000_000  #: entities after taking blocks apart, per drawing
     vertices: int = 5_000_000  #: vertices after flattening, per drawing
+    faces: int = 20_000_000  #: faces of one mesh; as many vertices
     bytes: int = 1_000_000_000  #: size of one file
     seconds: int = 600  #: reading one file
     memory: int = 2_000_000_000  #: bytes beyond the start, reading one file
@@ -94,6 +95,12 @@ class ReadingSpec(Strict):
     visible: Length = Quantity(0.2, "mm", at_scale=True)  #: what is smaller cannot be seen: it counts only if at fault
 
 
+class MeshSpec(Strict):
+    """How meshes are looked at: ``[mesh]``."""
+
+    weld: Literal["identical", "none"] = "identical"  #: vertices with the same coordinates are one, or as delivered
+
+
 _ENDS = ("undershoot", "overshoot", "free-end")  #: rules that ask whether an end lies on a curve
 
 
@@ -117,6 +124,7 @@ class Profile(Strict):
     completeness: CompletenessSpec | None = None
     evidence: EvidenceSpec | None = None  #: left out: nothing can be tied, and no table shows anything
     linework: LineworkSpec = LineworkSpec()
+    mesh: MeshSpec = MeshSpec()
     limits: LimitsSpec = LimitsSpec()
     checks: tuple[CheckSpec, ...]
     elements: tuple[ElementSpec, ...] = ()

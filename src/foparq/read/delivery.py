@@ -21,7 +21,14 @@ from foparq.model.plane import Plane, plane_of
 from foparq.model.statements import Contract, Decision
 from foparq.model.tables import Checkpoints, Distances, FeatureList
 from foparq.names import folded
-from foparq.profile.manifest import ConfirmedSection, ContractSection, DrawingSection, Manifest, TableSection
+from foparq.profile.manifest import (
+    ConfirmedSection,
+    ContractSection,
+    DrawingSection,
+    Manifest,
+    MeshSection,
+    TableSection,
+)
 from foparq.profile.schema import Profile
 from foparq.read.guard.parent import guarded
 from foparq.read.guard.paths import inside, name_of
@@ -35,12 +42,13 @@ from foparq.read.intake import (
     shown_path,
     take_companions,
     take_manifest,
-    take_once,
     take_profile,
     take_unnamed,
     take_unused,
 )
 from foparq.read.left_out import left_out
+from foparq.read.mesh.take import holds_mesh, take_mesh
+from foparq.read.once import read_once
 from foparq.read.raw import RawDrawing
 from foparq.read.statements import confirmed, confirms
 from foparq.read.table.extent import extent_of
@@ -102,14 +110,17 @@ def read_delivery(
     for section in manifest.drawing:
         find = partial(inside, root, section.path)
         _drawing(intake, section, shown_path(section.path), find, manifest.confirmed)
-    extents = tuple(extent for drawing in intake.drawings if (extent := extent_of(drawing)))
+    for mesh in manifest.mesh:
+        take_mesh(intake, mesh, shown_path(mesh.path), partial(inside, root, mesh.path), manifest.confirmed)
+    drawings = [part for part in intake.parts if isinstance(part, Drawing)]
+    extents = tuple(extent for drawing in drawings if (extent := extent_of(drawing)))
     checkpoints = _table(intake, root, "checkpoints", manifest.checkpoints, read_checkpoints, extents)
     distances = _table(intake, root, "distances", manifest.distances, read_distances, extents)
     features = _table(intake, root, "features", manifest.features, read_feature_list)
     take_unnamed(intake, root)
     delivery = Delivery(
         title=manifest.delivery.title or root.resolve().name, sources=tuple(intake.sources),
-        parts=tuple(intake.drawings), checkpoints=checkpoints, distances=distances, features=features,
+        parts=tuple(intake.parts), checkpoints=checkpoints, distances=distances, features=features,
         confirmed=confirmations,
         contract=_contract(manifest.contract),
         crs="" if folded(manifest.delivery.crs) == "local" else manifest.delivery.crs,
@@ -136,14 +147,16 @@ def read_loose(
     areas: tuple[str, ...] = (),
     bind: tuple[tuple[str, ...], ...] = (),
     ignore_layers: tuple[str, ...] = (),
+    closed: bool | None = None,
+    rims: int | None = None,
     progress: Progress | None = None,
 ) -> tuple[Delivery, tuple[str, ...]]:
-    """Drawings without a manifest, named as they are given.
+    """Drawings and meshes without a manifest, named as they are given.
 
     Parameters
     ----------
     paths : sequence of Path
-        Drawings, anywhere.
+        Drawings and meshes, anywhere.
     profile, scale, progress
         As for :func:`read_delivery`.
     unit : str or None
@@ -156,6 +169,10 @@ def read_loose(
         Groups of patterns of the layers that are drawn as one.
     ignore_layers : tuple of str
         Patterns of the layers that are not checked.
+    closed : bool or None
+        Whether the meshes among them are without a rim; ``None``: nobody states it.
+    rims : int or None
+        How many rims each of them has.
 
     Returns
     -------
@@ -167,10 +184,13 @@ def read_loose(
     for path in paths:
         name = name_of(path.as_posix())
         said = {"unit": unit, "plane": plane, "areas": areas, "bind": bind, "ignore_layers": ignore_layers}
+        if holds_mesh(path):
+            take_mesh(intake, MeshSection(path=name, unit=unit, closed=closed, rims=rims), name, path.resolve)
+            continue
         section = DrawingSection.model_validate({"path": name, **said})
         _drawing(intake, section, name, path.resolve)
     take_profile(intake, Path())
-    return Delivery(title="", sources=tuple(intake.sources), parts=tuple(intake.drawings)), tuple(intake.crashes)
+    return Delivery(title="", sources=tuple(intake.sources), parts=tuple(intake.parts)), tuple(intake.crashes)
 
 
 def read_drawing(path: Path, section: DrawingSection, profile: Profile, sagitta: float) -> RawDrawing:
@@ -206,43 +226,18 @@ def _drawing(
     intake: Intake, section: DrawingSection, name: str, find: Callable[[], Path],
     confirmed: Sequence[ConfirmedSection] = (),
 ) -> None:  # fmt: skip
-    intake.tell(name)
     source = Source(path=name, role="drawing", sha256="", bytes=0, status=SourceStatus.REFUSED)
-    limits = intake.profile.limits
     sagitta = intake.profile.chord_distance(intake.scale)
-    path = None
-    try:
-        path = find()
-        take_once(intake, path, name)
-        source = identified(source, path, limits.bytes)
-        if source.status is SourceStatus.MISSING:
-            intake.sources.append(source)
-            return
-        raw = guarded(
-            read_drawing,
-            path,
-            section,
-            intake.profile,
-            sagitta,
-            file=name,
-            seconds=limits.seconds,
-            memory=limits.memory,
-        )
-    except InputError as error:
-        intake.sources.append(refused(source, name, error.message, error.fields))
-    except RuntimeError as error:
-        intake.crashes.append(f"{name}\n{error}")
-        intake.sources.append(refused(source, name, "read.crashed", {}))
-    except ManifestError as error:
-        raise ManifestError(error.message, **{**error.fields, "file": name}) from None
-    else:
+    path, source, raw = read_once(intake, source, find, read_drawing, section, intake.profile, sagitta)
+    if raw is not None:
         status = SourceStatus.RECOVERED if raw.reading.repairs else SourceStatus.READ
         aside = left_out(raw, section, hidden=intake.profile.reading.hidden == "check")
         raw = replace(raw, reading=replace(raw.reading, skipped=(*raw.reading.skipped, *aside)))
-        intake.sources.append(replace(source, status=status, items=len(raw.items), skipped=raw.reading.skipped))
-        intake.drawings.append(_joined(raw, section, name, confirmed, frozenset(one.layer for one in aside)))
-    if path is not None:
-        take_companions(intake, name, path, limits.bytes)
+        source = replace(source, status=status, items=len(raw.items), skipped=raw.reading.skipped)
+        intake.parts.append(_joined(raw, section, name, confirmed, frozenset(one.layer for one in aside)))
+    intake.sources.append(source)
+    if path is not None and source.status is not SourceStatus.MISSING:
+        take_companions(intake, name, path, intake.profile.limits.bytes)
 
 
 def _joined(

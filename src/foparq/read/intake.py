@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 
 from foparq.errors import InputError, ManifestError, UnsafeError
 from foparq.model.delivery import Source, SourceStatus
-from foparq.model.drawing import Drawing
+from foparq.model.part import Part
 from foparq.names import folded, likeness, nearest
 from foparq.profile.schema import Profile
 from foparq.read.gis.companions import companions
@@ -30,7 +30,7 @@ class Intake:
     scale: float | None
     progress: Progress | None
     sources: list[Source] = field(default_factory=list)
-    drawings: list[Drawing] = field(default_factory=list)
+    parts: list[Part] = field(default_factory=list)
     crashes: list[str] = field(default_factory=list)
     taken: set[Path] = field(default_factory=set)  #: files accounted for, links resolved
 

@@ -6,7 +6,7 @@ from pathlib import PurePosixPath
 from foparq.errors import ManifestError
 from foparq.model.statements import Confirmation
 from foparq.names import folded
-from foparq.profile.manifest import ConfirmedSection, DrawingSection, Manifest
+from foparq.profile.manifest import ConfirmedSection, DrawingSection, Manifest, MeshSection
 
 _NOT_DRAWN = "not drawn"
 _BY_AXES = "given"  #: a plane of an origin and two axes
@@ -36,15 +36,15 @@ def confirmed(manifest: Manifest, file: str) -> tuple[Confirmation, ...]:
     return tuple(Confirmation(**one.model_dump()) for one in manifest.confirmed)
 
 
-def confirms(one: ConfirmedSection, section: DrawingSection) -> bool:
-    """Whether a person confirms what the manifest states of a drawing."""
+def confirms(one: ConfirmedSection, section: DrawingSection | MeshSection) -> bool:
+    """Whether a person confirms what the manifest states of a drawing or a mesh."""
     stated = _value(section, one.what) if one.what in {"unit", "plane"} else ""
     return bool(stated) and folded(stated) == folded(one.value) and _speaks_of(one, section)
 
 
-def _value(section: DrawingSection, what: str) -> str:
+def _value(section: DrawingSection | MeshSection, what: str) -> str:
     """What the manifest states, as a person repeats it; ``""`` if it states nothing."""
-    value = getattr(section, what)
+    value = getattr(section, what, None)
     return _BY_AXES if isinstance(value, tuple) else value or ""
 
 
@@ -53,13 +53,14 @@ def _stated(one: ConfirmedSection, manifest: Manifest) -> list[str] | None:
     if one.what in {"checkpoints", "distances"}:
         return [_NOT_DRAWN]
     if one.what in {"unit", "plane", "facade"}:
-        drawings = [section for section in manifest.drawing if _speaks_of(one, section)]
-        return [value for section in drawings if (value := _value(section, one.what))]
+        every: list[DrawingSection | MeshSection] = [*manifest.drawing, *manifest.mesh]
+        named = [section for section in every if _speaks_of(one, section)]
+        return [value for section in named if (value := _value(section, one.what))]
     return None
 
 
-def _speaks_of(one: ConfirmedSection, section: DrawingSection) -> bool:
-    """Whether a person speaks of a drawing: by its path, however it is spelt, or of all."""
+def _speaks_of(one: ConfirmedSection, section: DrawingSection | MeshSection) -> bool:
+    """Whether a person speaks of a drawing or a mesh: by its path, however it is spelt, or of all."""
     return not one.path or _path_key(one.path) == _path_key(section.path)
 
 

@@ -36,7 +36,7 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
     """
     words = Words(record.language)
     names = Counter(record.findings.name.tolist())
-    repairs = {drawing.path: drawing.reading.repairs[: record.written] for drawing in record.delivery.drawings}
+    repairs = {path: made[: record.written] for path, made in record.delivery.repairs.items()}
     return {
         "schema": SCHEMA,
         "foparq": __version__,
@@ -206,6 +206,7 @@ def _outcome(outcome: Outcome) -> dict[str, Any]:
         "status": outcome.status.value,
         "checked": outcome.checked,
         "found": outcome.found,
+        "otherwise": {"reading": outcome.otherwise[0], "found": outcome.otherwise[1]} if outcome.otherwise else None,
         "skipped": outcome.skipped,
         "set_aside": [
             {"item": one.item, "layer": one.layer, "rule": one.rule, "told": one.told} for one in outcome.aside

@@ -100,8 +100,13 @@ def found_by(record: AuditRecord, rows: Index) -> tuple[list[str], list[str]]:
     """
     table = record.findings
     cad, qgis = [], []
+    meshes = {mesh.path for mesh in record.delivery.meshes}  # numbers of faces: neither program knows them
     columns = (getattr(table, name)[rows].tolist() for name in ("source", "item", "handle", "inserts", "other"))
     for source, item, handle, inserts, other in zip(*columns, strict=True):
+        if source in meshes:
+            cad.append("")
+            qgis.append("")
+            continue
         if PurePosixPath(source).suffix.casefold() == ".dxf":
             tops = _tops(item, handle, inserts, other)
             cad.append(cad_line(tops))

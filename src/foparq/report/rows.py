@@ -45,7 +45,7 @@ def finding_columns(record: AuditRecord, words: Words | None = None) -> dict[str
         is the same place as CAD takes it; ``cad`` and ``qgis`` find the item in AutoCAD and QGIS.
     """
     table, rows = record.findings, written_rows(record)
-    metres = {drawing.path: drawing.unit.metres for drawing in record.delivery.drawings}
+    metres = record.delivery.metres
     sources = table.source[rows].tolist()
     places = zip(table.place[rows].tolist(), sources, strict=True)
     cad, qgis = found_by(record, rows)

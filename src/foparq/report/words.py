@@ -21,6 +21,7 @@ LANGUAGES = ("pt-BR", "en")
 DOMAINS = ("cli", "errors", "evaluate", "report")  #: of gettext
 
 #: how a quantity is written for people, by SI unit: below which value, unit, factor from SI, decimals
+_OF_FILE = frozenset({"u", "u2"})  #: units of the file, where nobody knows what they are
 _LADDERS = {
     "m": ((1e-4, "µm", 1e6, 2), (1.0, "mm", 1e3, 2), (float("inf"), "m", 1.0, 3)),
     "m2": ((1e-2, "mm²", 1e6, 1), (float("inf"), "m²", 1.0, 4)),
@@ -109,6 +110,8 @@ class Words:
 
         A bare number that is not nought is not written as nought: ``"3 × 10⁻⁷"``.
         """
+        if unit in _OF_FILE:
+            return self(f"report.quantity.{unit}", value=self.number(value, 3).rstrip("0").rstrip(".,"))
         ladder = _LADDERS.get(unit, ((float("inf"), unit, 1.0, 3),))
         name, factor, decimals = next((row[1:] for row in ladder if abs(value) < row[0]), ladder[-1][1:])
         if not unit and 0.0 < abs(value) < 0.5 * 10.0**-decimals:

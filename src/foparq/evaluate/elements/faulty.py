@@ -30,6 +30,7 @@ def faulty_rate(spec: FaultyRateSpec, evidence: Evidence) -> tuple[Element, ...]
 
     The order of decisions:
 
+    0. Meshes and no drawing were named: not applicable, and nothing rests on it.
     1. Nothing checked: not assessed, or undecided if rules could not run.
     2. A rule that crashed is a fault of the program: undecided.
     3. The rate exceeds the limit, even if the drawings on which the rules did not run are free of faults: it fails.
@@ -46,7 +47,9 @@ def faulty_rate(spec: FaultyRateSpec, evidence: Evidence) -> tuple[Element, ...]
     found = tally(evidence, spec.rules)
     limit, no_limit = limit_of(spec, evidence, "1", spec.id)
     value = found.faulty / found.checked if found.checked else None
-    if value is None:
+    if evidence.meshes_only:
+        judgement = judged(ElementStatus.NOT_APPLICABLE, because("faulty.meshes-only", element=spec.id))
+    elif value is None:
         judgement = judge_nothing(spec, evidence, found)
     elif no_limit is not None or limit is None:
         judgement = judged(ElementStatus.UNDECIDED, *filter(None, [no_limit]))
@@ -61,7 +64,7 @@ def faulty_rate(spec: FaultyRateSpec, evidence: Evidence) -> tuple[Element, ...]
     made = element(
         spec, _MEASURE, judgement, scope=evidence.files("drawing"), n=found.checked, value=value, limit=limit,
         comparison="<=", parameters=parameters, method="directInternal",
-        details=(*found.rules, *found.parts),
+        details=(*found.rules, *found.parts), required=spec.required and not evidence.meshes_only,
     )  # fmt: skip
     return (made,)
 

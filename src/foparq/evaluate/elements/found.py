@@ -38,7 +38,9 @@ def found_rate(spec: FoundRateSpec, evidence: Evidence) -> tuple[Element, ...]:
     limit, no_limit = limit_of(spec, evidence, measure.unit, spec.id)
     rate = found.found / found.checked if found.checked else None
     value = rate if not counting or rate is None else float(found.found)
-    if value is None or rate is None:
+    if evidence.meshes_only:
+        judgement = judged(ElementStatus.NOT_APPLICABLE, because("faulty.meshes-only", element=spec.id))
+    elif value is None or rate is None:
         judgement = judge_nothing(spec, evidence, found)
     elif limit is not None:
         judgement = _judge(spec, evidence, found, value, limit, measure.unit)
@@ -58,7 +60,7 @@ def found_rate(spec: FoundRateSpec, evidence: Evidence) -> tuple[Element, ...]:
     made = element(
         spec, measure.id, judgement, scope=evidence.files("drawing"), n=found.checked, value=value, limit=limit,
         comparison="<=", parameters=(*shown, *iso_counts(found)), method="directInternal", details=found.rules,
-        kind=kind,
+        kind=kind, required=spec.required and not evidence.meshes_only,
     )  # fmt: skip
     return (made,)
 

@@ -12,12 +12,14 @@ from foparq.errors import InputError
 from foparq.model.delivery import LOST
 from foparq.model.drawing import Drawing
 from foparq.model.items import Role
+from foparq.model.mesh import Mesh
 from foparq.profile.manifest import SurveySection, TableSection
 from foparq.profile.schema import LimitsSpec, Profile
 from foparq.read.delivery import read_loose
 from foparq.read.guard.parent import guarded
 from foparq.read.guard.paths import files_of
 from foparq.read.guard.sniff import format_of
+from foparq.read.mesh.take import holds_mesh
 from foparq.read.table.csv_text import is_workbook
 from foparq.read.table.revisions import is_aside, revision_of
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list
@@ -40,6 +42,16 @@ class FoundDrawing:
     header: str  #: unit that the file states; ``""`` if silent
     layers: tuple[str, ...]  #: layers that hold anything
     extent: tuple[float, float, float]  #: width in x, y and z, drawing units
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FoundMesh:
+    """A mesh that could be read."""
+
+    path: str  #: relative to the folder
+    header: str  #: unit that the format states; ``""`` if silent
+    faces: int
+    extent: tuple[float, float, float]  #: width in x, y and z, units of the file
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +78,7 @@ class Survey:
     """Readable files of a folder by role; paths are relative to it."""
 
     drawings: tuple[FoundDrawing, ...]
+    meshes: tuple[FoundMesh, ...]
     tables: dict[str, tuple[FoundTable, ...]]  #: ``checkpoints``, ``distances``, ``features``; the latest first
     others: tuple[Other, ...]  #: files that are neither, or could not be read
     classes: tuple[str, ...] = ()  #: of the list of features
@@ -87,6 +100,7 @@ def survey_folder(folder: Path, profile: Profile) -> Survey:
     """
     names = sorted(path.relative_to(folder).as_posix() for path in files_of(folder, frozenset({"audit"})))
     drawings: list[FoundDrawing] = []
+    meshes: list[FoundMesh] = []
     tables: dict[str, list[FoundTable]] = {}
     others: list[Other] = []
     for name in names:
@@ -98,14 +112,19 @@ def survey_folder(folder: Path, profile: Profile) -> Survey:
             tables.setdefault(role, []).append(FoundTable(name, sheet))
         if found:
             continue
-        drawing = _drawing(folder / name, profile)
-        if isinstance(drawing, Drawing):
-            drawings.append(_found(drawing, name))
+        part = _part(folder / name, profile)
+        if isinstance(part, Drawing):
+            drawings.append(_found(part, name))
+        elif isinstance(part, Mesh):
+            meshes.append(_found_mesh(part, name))
         else:
-            others.append(_other(name, why, drawing))
+            others.append(_other(name, why, part))
     latest = {role: tuple(sorted(found, key=lambda one: -revision_of(one.path).rank)) for role, found in tables.items()}
     classes, facades = _listed(folder, latest.get("features", ()), profile.limits)
-    return Survey(drawings=tuple(drawings), tables=latest, others=tuple(others), classes=classes, facades=facades)
+    return Survey(
+        drawings=tuple(drawings), meshes=tuple(meshes), tables=latest, others=tuple(others), classes=classes,
+        facades=facades,
+    )  # fmt: skip
 
 
 def _other(name: str, table: Why | None, drawing: Why | None) -> Other:
@@ -196,9 +215,10 @@ def _lacking(why: Why) -> float:
     return lack / _REQUIRED[why[0]] if message == "table.column-missing" else 2.0
 
 
-def _drawing(path: Path, profile: Profile) -> Drawing | Why | None:
+def _part(path: Path, profile: Profile) -> Drawing | Mesh | Why | None:
     try:
-        format_of(path)
+        if not holds_mesh(path):
+            format_of(path)
     except InputError as error:
         return ("", error.message, error.fields) if error.message in _TELLING else None
     except OSError:
@@ -207,9 +227,17 @@ def _drawing(path: Path, profile: Profile) -> Drawing | Why | None:
     lost = next((source for source in delivery.sources if source.status in LOST), None)
     if lost is not None:
         return "", lost.error, dict(lost.fields)
-    if not delivery.drawings:
-        return None
-    return delivery.drawings[0]
+    part = next(iter(delivery.parts), None)
+    return part if isinstance(part, Drawing | Mesh) else None
+
+
+def _found_mesh(mesh: Mesh, name: str) -> FoundMesh:
+    points = mesh.points[mesh.finite]
+    width = np.ptp(points, axis=0) if len(points) else np.zeros(3)
+    return FoundMesh(
+        path=name, header=mesh.unit.header, faces=mesh.features,
+        extent=(float(width[0]), float(width[1]), float(width[2])),
+    )  # fmt: skip
 
 
 def _found(drawing: Drawing, name: str) -> FoundDrawing:

@@ -10,6 +10,7 @@ from foparq.model.delivery import Source
 from foparq.report.page.drawing import Picture
 from foparq.report.page.tables import TAKEN_IN, ElementView, InputView, input_views, open_elements
 from foparq.report.record import AuditRecord
+from foparq.report.second_reading import found_words
 from foparq.report.sentences import (
     aside_sentence,
     outcome_because,
@@ -104,9 +105,9 @@ def coverage(words: Words, record: AuditRecord, pictures: tuple[Picture, ...]) -
     ended = {Status.CLEAN, Status.FAULTY}
     skipped = [(source, part) for source in record.delivery.sources for part in source.skipped]
     repairs = [
-        (printable(drawing.path), repair_sentence(words, repair))
-        for drawing in record.delivery.drawings
-        for repair in drawing.reading.repairs
+        (printable(path), repair_sentence(words, repair))
+        for path, made in record.delivery.repairs.items()
+        for repair in made
     ]
     return LookedAt(
         ran=tuple(view for run, view in runs if run.status in ended),
@@ -187,7 +188,7 @@ def _run_view(words: Words, run: Outcome, *, noted: bool) -> RunView:
         title=words(f"rules.{run.rule}.title"),
         scope=outcome_scope(words, run),
         checked=words.count(run.checked),
-        found=words.count(run.found),
+        found=found_words(words, run),
         faulty=words.count(len(run.faulty)),
         skipped=words.count(run.skipped),
         status=status,

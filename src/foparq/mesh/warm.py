@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+"""Kernels compiled before they are needed: the first time on a machine takes seconds, later ones are read from disk."""
+
+from functools import cache
+
+import numpy as np
+
+from foparq.mesh.intersections import intersections
+
+#: two squares that cross, one that lies on the first, one that touches it: every way to meet
+_SQUARES = (
+    ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)),
+    ((0.5, -1, -1), (0.5, 2, -1), (0.5, 2, 1), (0.5, -1, 1)),
+    ((0.2, 0.2, 0), (3, 0.2, 0), (3, 3, 0), (0.2, 3, 0)),
+    ((0, 0.3, 0), (0, 0.6, 0), (-1, 0.6, 1), (-1, 0.3, 1)),
+)
+
+
+@cache
+def warm() -> None:
+    """Compile, or load, the kernels of intersections; once in a process. Children that are forked have them too."""
+    points = np.array(_SQUARES, dtype=float).reshape(-1, 3)
+    first = np.arange(0, len(points), 4)[:, np.newaxis]
+    corners = np.concatenate([first + np.array([0, 1, 2]), first + np.array([0, 2, 3])])
+    intersections(points, corners, keep=len(corners) ** 2)
