@@ -36,6 +36,7 @@ FLOORED = {
     "click": ("cli",),
     "rich": ("cli",),
     "pydantic": ("profile",),
+    "numba": ("mesh",),
 }
 #: operations that change what they are given
 FORBIDDEN_CALLS = {"make_valid", "set_precision", "snap", "iterrows", "itertuples"}
