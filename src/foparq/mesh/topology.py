@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from foparq.mesh.intersections import Intersections
 
 _MOST_CORNERS = 5_000  #: of a polygon that is cut into triangles: that takes a step for each corner and each ear
-_DIGITS = 9  #: of logarithms of lengths that are compared: what differs by rounding only is equal
+_DIGITS = 6  #: of logarithms of lengths that are compared: what differs by rounding of coordinates only is equal
 _TINY = float(np.finfo(float).tiny)
 _TRIANGLE = 3
 _KEPT = 2_000_000  #: pairs of faces that intersect and are told; all are counted
