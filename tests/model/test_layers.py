@@ -37,7 +37,7 @@ def test_a_literal_pattern_matches_its_layer_alone(name: str) -> None:
 
 def test_what_a_run_may_use_grows_with_the_part_and_shrinks_with_what_was_spent() -> None:
     limits = LimitsSpec(check_seconds=30, check_seconds_per_million=60, check_memory=5)
-    part = SimpleNamespace(vertices=500_000)
+    part = SimpleNamespace(vertices=500_000, held=0)
     fresh, later, over = (budget_of(part, limits, spent) for spent in (0.0, 45.0, 61.0))  # type: ignore[arg-type]
     assert (fresh.seconds, fresh.memory) == (60.0, 5)
     assert (later.seconds, over.seconds) == (15.0, 0.0)

@@ -22,6 +22,7 @@ def non_planar_polygon(surface: Surface, *, within: Metres) -> Hits:
     surface : Surface, n rows
         Faces that can be used, with vertices at the same coordinates taken for one where the profile says so.
     within : float, metres
+        Distance on the object up to which a corner lies in the plane.
 
     Returns
     -------

@@ -23,6 +23,7 @@ def sliver_face(surface: Surface, *, needle: Ratio, cap: Radians) -> Hits:
     needle : float
         Part of the longest side.
     cap : float, radians
+        Angle beyond which a triangle is a cap.
 
     Returns
     -------

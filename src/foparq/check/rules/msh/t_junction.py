@@ -23,6 +23,7 @@ def t_junction(surface: Surface, *, coincide: Metres) -> Hits:
     surface : Surface, n rows
         Faces that can be used, with vertices at the same coordinates taken for one where the profile says so.
     coincide : float, metres
+        Distance on the object up to which a vertex lies on an edge.
 
     Returns
     -------
