@@ -62,8 +62,6 @@ class Subject(ABC):
     leading: tuple[str, ...] = ()
     #: items have no name that another file of the same thing would give them: findings are known by place alone
     named_by_place: bool = False
-    #: lengths have a unit; where they have none, sizes of findings are in units of the file
-    measured: bool = True
 
     @abstractmethod
     def __init__(self, part: Part, profile: Profile) -> None: ...
@@ -81,6 +79,11 @@ class Subject(ABC):
     @abstractmethod
     def metres(self) -> float:
         """Metres in one unit of the file."""
+
+    @property
+    def measured(self) -> bool:
+        """Whether lengths have a unit; where they have none, sizes of findings are in units of the file."""
+        return True
 
     @classmethod
     @abstractmethod

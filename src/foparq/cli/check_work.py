@@ -16,7 +16,7 @@ from foparq.evaluate.exit_of import exit_of
 from foparq.profile.adjust import choose, with_settings
 from foparq.profile.load import load_profile
 from foparq.profile.schema import Profile
-from foparq.read.mesh.take import holds_mesh
+from foparq.read.guard.sniff import holds_mesh
 from foparq.report.files import Written, writable, write_reports
 from foparq.report.harmless import log_text
 from foparq.report.words import Words

@@ -58,11 +58,7 @@ def _unseen(evidence: Evidence) -> list[Reason]:
         if not any(_saw(outcome) for outcome in evidence.outcomes if outcome.source == part.path):
             why.append(because("files.nothing", file=part.path))
     why += left_out_doubts(evidence)
-    why += [
-        because("files.open-rim", file=one.source, n=one.found)
-        for one in evidence.outcomes
-        if one.name == "open-rim" and one.found
-    ]
+    why += [because("files.open-rim", file=file, n=n) for file, n in evidence.open_rims]
     if not evidence.delivery.parts and not evidence.refused:
         why.append(because("files.no-drawing"))
     return why

@@ -47,6 +47,11 @@ class Evidence:
         return bool(self.files("mesh")) and not self.files("drawing")
 
     @property
+    def open_rims(self) -> tuple[tuple[str, int], ...]:
+        """Meshes that end in rims that nobody states, and how many."""
+        return tuple((one.source, one.found) for one in self.outcomes if one.name == "open-rim" and one.found)
+
+    @property
     def refused(self) -> bool:
         """Whether a file that was named could not be read."""
         return any(source.status in LOST for source in self.delivery.sources)
@@ -140,13 +145,8 @@ def unseen(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     for drawing in evidence.delivery.drawings:
         if bombs := sorted({bomb.block for bomb in drawing.reading.bombs}):
             why.append(because("unseen.block", element=name, file=drawing.path, blocks=some(bombs, 5), n=len(bombs)))
-        if repairs := sum(repair.loses for repair in drawing.reading.repairs):
-            why.append(because("unseen.repaired", element=name, file=drawing.path, n=repairs))
         # Blocks that are not taken apart are told by name above.
-        if hidden := hidden_parts(drawing, but={SkippedReason.BLOCK_BOMB}):
-            kinds = [kind for kind, _ in hidden]
-            n = sum(count for _, count in hidden)
-            why.append(because("unseen.skipped", element=name, file=drawing.path, kinds=some(kinds, 5), n=n))
+        why += _lost_within(drawing, name, but={SkippedReason.BLOCK_BOMB})
     return tuple(why)
 
 
@@ -175,12 +175,19 @@ def unseen_meshes(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     if lost := evidence.lost("mesh"):
         why.append(because("unseen.mesh", element=name, files=lost))
     for mesh in evidence.delivery.meshes:
-        if repairs := sum(repair.loses for repair in mesh.reading.repairs):
-            why.append(because("unseen.repaired", element=name, file=mesh.path, n=repairs))
-        if hidden := hidden_parts(mesh):
-            kinds, n = [kind for kind, _ in hidden], sum(count for _, count in hidden)
-            why.append(because("unseen.skipped", element=name, file=mesh.path, kinds=some(kinds, 5), n=n))
+        why += _lost_within(mesh, name)
     return tuple(why)
+
+
+def _lost_within(part: Drawing | Mesh, name: str, *, but: Collection[SkippedReason] = ()) -> list[Reason]:
+    """What was lost of a file that could be read, and what of it no check saw."""
+    why = []
+    if repairs := sum(repair.loses for repair in part.reading.repairs):
+        why.append(because("unseen.repaired", element=name, file=part.path, n=repairs))
+    if hidden := hidden_parts(part, but=but):
+        kinds, n = [kind for kind, _ in hidden], sum(count for _, count in hidden)
+        why.append(because("unseen.skipped", element=name, file=part.path, kinds=some(kinds, 5), n=n))
+    return why
 
 
 def hidden_parts(part: Part, *, but: Collection[SkippedReason] = ()) -> list[tuple[str, int]]:

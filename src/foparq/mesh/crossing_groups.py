@@ -22,7 +22,6 @@ class Groups(NamedTuple):
     second: Index  #: (k,) the other face
     segment: Reals  #: (k, 2, 3) that meeting
     length: Reals  #: (k,) of all meetings of the group
-    pairs: Index  #: (k,) pairs of the group
     faces: Index  #: (m,) all faces of all groups, rising
 
 
@@ -33,33 +32,12 @@ class Overlaps(NamedTuple):
     other: Index  #: (k,)
 
 
-def pairs_of_faces(found: Intersections, face: Index, kinds: tuple[Meeting, ...]) -> tuple[Index, Index, Reals]:
-    """Pairs of faces whose triangles meet in one of some ways, each once, with the longest segment of each.
-
-    Parameters
-    ----------
-    found : Intersections
-        Of triangles.
-    face : (t,) int
-        Face of every triangle.
-    kinds : tuple of Meeting
-
-    Returns
-    -------
-    first, second : (k,) int
-        Faces, the lower first, sorted.
-    segment : (k, 2, 3) float
-    """
+def _pairs(found: Intersections, face: Index, kinds: tuple[Meeting, ...]) -> tuple[Index, Index, Index]:
+    """Rows (k,) of pairs that meet in one of some ways, of triangles of two faces; and the faces, the lower first."""
     row = np.flatnonzero(np.isin(found.kind, [int(kind) for kind in kinds]))
-    pair = np.sort(np.stack([face[found.first[row]], face[found.second[row]]], axis=1), axis=1)
-    apart = pair[:, 0] != pair[:, 1]
-    pair, segment = pair[apart], found.segment[row[apart]]
-    long = lengths(segment[:, 1] - segment[:, 0])
-    order = np.lexsort((-long, pair[:, 1], pair[:, 0]))
-    pair, segment = pair[order], segment[order]
-    first = np.ones(len(pair), dtype=bool)
-    first[1:] = (pair[1:] != pair[:-1]).any(axis=1)
-    return pair[first, 0], pair[first, 1], segment[first]
+    one, two = face[found.first[row]], face[found.second[row]]
+    apart = one != two
+    return row[apart], np.minimum(one, two)[apart], np.maximum(one, two)[apart]
 
 
 def crossing_groups(found: Intersections, face: Index, corners: Index) -> Groups:
@@ -79,10 +57,8 @@ def crossing_groups(found: Intersections, face: Index, corners: Index) -> Groups
     O(k log k). Pairs are of one group if a triangle of one is a triangle of the other, or shares a vertex with it. Of
     meetings of one length the first by its ends, so that the order of faces decides nothing.
     """
-    row = np.flatnonzero(np.isin(found.kind, [int(Meeting.TRANSVERSAL), int(Meeting.CONTACT)]))
-    row = row[face[found.first[row]] != face[found.second[row]]]
+    row, one, two = _pairs(found, face, (Meeting.TRANSVERSAL, Meeting.CONTACT))
     segment = found.segment[row]
-    one, two = np.sort(np.stack([face[found.first[row]], face[found.second[row]]]), axis=0)
     label = clusters(found.first[row], found.second[row], segment, corners).label
     long = lengths(segment[:, 1] - segment[:, 0])
     shorter: Reals = -np.round(np.log(np.maximum(np.asarray(long, dtype=float), _TINY)), _DIGITS)
@@ -90,8 +66,7 @@ def crossing_groups(found: Intersections, face: Index, corners: Index) -> Groups
     lead = order[np.diff(label[order], prepend=-1) > 0]
     total = np.zeros(len(lead))
     np.add.at(total, label, long)
-    pairs: Index = np.bincount(label, minlength=len(lead)).astype(np.intp)
-    return Groups(one[lead], two[lead], segment[lead], total, pairs, union(one, two))
+    return Groups(one[lead], two[lead], segment[lead], total, union(one, two))
 
 
 def _by_ends(segment: Reals) -> list[Reals]:
@@ -119,7 +94,8 @@ def overlaps(found: Intersections, face: Index, areas: Reals, rank: Index) -> Ov
     rank : (f,) int
         Which of two faces of one area is told as the smaller one.
     """
-    one, two, _ = pairs_of_faces(found, face, (Meeting.COPLANAR, Meeting.FOLD))
+    _, lower, upper = _pairs(found, face, (Meeting.COPLANAR, Meeting.FOLD))
+    one, two = np.unique(np.stack([lower, upper]), axis=1)  # triangles of one pair of faces are one pair
     like = np.isclose(areas[one], areas[two], rtol=10.0**-_DIGITS, atol=0.0)
     swapped = np.where(like, rank[two] < rank[one], areas[two] < areas[one])
     return Overlaps(np.where(swapped, two, one), np.where(swapped, one, two))

@@ -33,7 +33,7 @@ _MOST_CORNERS = 5_000  #: of a polygon that is cut into triangles: that takes a 
 _DIGITS = 6  #: of logarithms of lengths that are compared: what differs by rounding of coordinates only is equal
 _TINY = float(np.finfo(float).tiny)
 _TRIANGLE = 3
-_KEPT = 2_000_000  #: pairs of faces that intersect and are told; all are counted
+_KEPT = 2_000_000  #: pairs of faces that intersect; beyond, nothing is told of any
 
 
 class Topology:
@@ -103,9 +103,7 @@ class Topology:
     @cached_property
     def border_faces(self) -> Index:
         """(b,) face along every edge of the borders."""
-        at = self.edges.starts[self.borders.edges]
-        faces: Index = self.face[self.edges.sides[at]]
-        return faces
+        return self.boundary_faces(self.borders.edges)
 
     @cached_property
     def rims(self) -> Flags:
@@ -119,19 +117,19 @@ class Topology:
         together = joined(len(self.components.faces), np.repeat(start, np.diff(found.starts)), edge)
         piece = together[start]
         rims = np.zeros(len(piece), dtype=bool)
-        order = self._by_length
+        order = self._by_width
         order = order[np.argsort(piece[order], kind="stable")]
         rims[order[np.diff(piece[order], prepend=-1) > 0]] = True
         return rims
 
-    def longest_borders(self, count: int) -> Flags:
+    def widest_borders(self, count: int) -> Flags:
         """(k,) the widest borders."""
-        longest = np.zeros(len(self._by_length), dtype=bool)
-        longest[self._by_length[:count]] = True
-        return longest
+        widest = np.zeros(len(self._by_width), dtype=bool)
+        widest[self._by_width[:count]] = True
+        return widest
 
     @cached_property
-    def _by_length(self) -> Index:
+    def _by_width(self) -> Index:
         """(k,) borders, wider ones first, of like width longer ones; of equals that of the lowest vertex.
 
         An opening may be longer than the outline around it, but never wider.

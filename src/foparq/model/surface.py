@@ -43,12 +43,12 @@ class Surface(Named):
 
     def take(self, rows: Index | Flags) -> Self:
         """The chosen faces, in that order."""
-        chosen = np.flatnonzero(rows) if rows.dtype == bool else rows
-        counts = np.diff(self.starts)[chosen]
-        starts = np.concatenate([[0], np.cumsum(counts)])
-        corner = np.repeat(self.starts[chosen] - starts[:-1], counts) + np.arange(starts[-1])
-        named = {one.name: getattr(self, one.name)[chosen] for one in fields(Named)}
-        return replace(self, **named, corners=self.corners[corner], starts=starts)
+        from foparq.mesh.polygons import chosen  # noqa: PLC0415 - a drawing never loads the kernels of meshes
+
+        kept: Index = np.arange(len(self))[rows]
+        corners, starts = chosen(self.corners, self.starts, kept)
+        named = {one.name: getattr(self, one.name)[kept] for one in fields(Named)}
+        return replace(self, **named, corners=corners, starts=starts)
 
     def faces(self, rows: Index) -> Geometries:
         """Areas (k,) of chosen faces, in space."""
@@ -85,23 +85,23 @@ class Surface(Named):
     def rim(self) -> Flags:
         """(k,) borders that are rims, stated or supposed.
 
-        The longest ones, as many as are stated; else the longest of each piece.
+        The widest ones, as many as are stated; else the widest of each piece.
         """
         if self.rims is not None or self.closed:
-            return self.shape.longest_borders(0 if self.closed else self.rims or 0)
+            return self.shape.widest_borders(0 if self.closed else self.rims or 0)
         return self.shape.rims
 
     @cached_property
     def doubtful_rim(self) -> Flags:
-        """(k,) rims that nobody states: all, or all but the longest where a rim is stated and not how many."""
+        """(k,) rims that nobody states: all, or all but the widest where a rim is stated and not how many."""
         if self.rims is not None or self.closed:
             return np.zeros(len(self.rim), dtype=bool)
-        return self.rim & ~self.shape.longest_borders(int(self.closed is False))
+        return self.rim & ~self.shape.widest_borders(int(self.closed is False))
 
     @cached_property
     def shape(self) -> "Topology":
         """What its faces have in common, computed once for all rules."""
-        from foparq.mesh.topology import Topology  # noqa: PLC0415 - a drawing never loads the kernels of meshes
+        from foparq.mesh.topology import Topology  # noqa: PLC0415 - as above
 
         return Topology(self.points, self.corners, self.starts)
 

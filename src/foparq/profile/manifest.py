@@ -81,8 +81,8 @@ class MeshSection(Strict):
     rims: Annotated[int, Field(ge=1, le=10**6, strict=True)] | None = (
         None  #: how many; left out: one, if it is not closed
     )
-    facade: str = ""
-    up: Literal["x", "y", "z"] | None = None  #: axis that points up; left out: as the format says, else z
+    facade: str = ""  #: kept, not assessed yet
+    up: Literal["x", "y", "z"] | None = None  #: axis that points up; kept, not used yet
 
     @field_validator("rims")
     @classmethod

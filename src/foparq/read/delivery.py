@@ -32,7 +32,7 @@ from foparq.profile.manifest import (
 from foparq.profile.schema import Profile
 from foparq.read.guard.parent import guarded
 from foparq.read.guard.paths import inside, name_of
-from foparq.read.guard.sniff import Format, format_of
+from foparq.read.guard.sniff import Format, format_of, holds_mesh
 from foparq.read.guard.stage import sweep
 from foparq.read.intake import (
     Intake,
@@ -47,7 +47,7 @@ from foparq.read.intake import (
     take_unused,
 )
 from foparq.read.left_out import left_out
-from foparq.read.mesh.take import holds_mesh, take_mesh
+from foparq.read.mesh.take import take_mesh
 from foparq.read.once import read_once
 from foparq.read.raw import RawDrawing
 from foparq.read.statements import confirmed, confirms

@@ -62,7 +62,7 @@ class MeshSubject(Subject):
         return self.mesh.unit.metres or 1.0
 
     @property
-    def measured(self) -> bool:  # type: ignore[override]
+    def measured(self) -> bool:
         """Whether the unit of the file is known."""
         return self.mesh.unit.metres is not None
 
@@ -110,8 +110,13 @@ class MeshSubject(Subject):
         return False
 
     def doubt(self, outcomes: Sequence[Outcome], visible: float) -> Doubt:  # noqa: ARG002 - the engine's call
-        """Unit unknown: what is told in metres means nothing."""
-        return NO_DOUBT if self.mesh.unit.metres is not None else Doubt(Because.UNIT_UNKNOWN)
+        """Unit unknown, or stated against what the format says until somebody answers for it."""
+        unit = self.mesh.unit
+        if unit.metres is None:
+            return Doubt(Because.UNIT_UNKNOWN)
+        if unit.header_metres not in {None, unit.metres} and "unit" not in self.mesh.confirmed:
+            return Doubt(Because.UNIT_CONTRADICTED, (f"unit: {unit.name}", f"format: {unit.header}"))
+        return NO_DOUBT
 
     def counted(self, rows: Index, faulty: Index) -> int:
         """Faces or vertices judged."""
@@ -147,8 +152,10 @@ class MeshSubject(Subject):
         return None if np.array_equal(same, np.arange(len(same))) else same
 
     def _corners_of(self, faces: Index, *, welded: bool) -> Index:
+        from foparq.mesh.polygons import chosen  # noqa: PLC0415 - as above
+
         mesh = self.mesh
-        corners = mesh.corners if len(faces) == mesh.features else mesh.corners[_corners(mesh.starts, faces)]
+        corners = mesh.corners if len(faces) == mesh.features else chosen(mesh.corners, mesh.starts, faces)[0]
         return self._same[corners] if welded and self._same is not None else corners
 
     def _surface(self, layers: Patterns) -> Taken:
@@ -210,14 +217,6 @@ class MeshSubject(Subject):
             "layer": self._groups[self.mesh.group[rows]], "item": number, "handle": number,
             "inserts": np.broadcast_to(np.array("", dtype=object), len(rows)), "row": rows,
         }  # fmt: skip
-
-
-def _corners(starts: Index, faces: Index) -> Index:
-    """Places of the corners of some faces, one after the other."""
-    counts = starts[faces + 1] - starts[faces]
-    ends = np.cumsum(counts)
-    corners: Index = np.repeat(starts[faces] - (ends - counts), counts) + np.arange(counts.sum())
-    return corners
 
 
 def points_on(where: Geometries) -> Reals:

@@ -10,7 +10,7 @@ from foparq.columns import union
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen_meshes
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
-from foparq.evaluate.tally import where_broken
+from foparq.evaluate.tally import Tally, broken_reasons, tally
 from foparq.findings.because import Because
 from foparq.findings.outcome import Outcome, Status
 from foparq.model.mesh import Mesh
@@ -70,18 +70,19 @@ def surface_rate(spec: SurfaceRateSpec, evidence: Evidence) -> tuple[Element, ..
     limit, no_limit = limit_of(spec, evidence, "1", spec.id)
     counted = [one for one in evidence.outcomes if one.name in spec.rules and not (one.helper or one.preview)]
     meshes = [_tally(part, counted) for part in evidence.delivery.meshes]
+    found = tally(evidence, spec.rules)
     value = max((max(mesh.shares) for mesh in meshes if mesh.checked), default=None)
     if value is None:
-        why = _broken(spec, counted) or (because("surface.nothing", element=spec.id),)
+        why = broken_reasons(found, spec.id) or (because("surface.nothing", element=spec.id),)
         judgement = judged(ElementStatus.NOT_ASSESSED, *why, *unseen_meshes(evidence, spec.id))
     elif no_limit is not None or limit is None:
         judgement = judged(ElementStatus.UNDECIDED, *filter(None, [no_limit]))
     else:
-        judgement = _judge(spec, evidence, meshes, counted, limit)
+        judgement = _judge(spec, evidence, meshes, found, limit)
     made = element(
         spec, _MEASURE, judgement, scope=evidence.files("mesh"), n=sum(mesh.checked for mesh in meshes), value=value,
         limit=limit, comparison="<=", parameters=_parameters(meshes), method="directInternal",
-        details=_details(spec, counted),
+        details=found.rules,
     )  # fmt: skip
     return (made,)
 
@@ -100,23 +101,21 @@ def _tally(mesh: Mesh, counted: Sequence[Outcome]) -> _Mesh:
     )  # fmt: skip
 
 
-def _judge(
-    spec: SurfaceRateSpec, evidence: Evidence, meshes: Sequence[_Mesh], counted: Sequence[Outcome], limit: float
-) -> Judgement:
+def _judge(spec: SurfaceRateSpec, evidence: Evidence, meshes: Sequence[_Mesh], found: Tally, limit: float) -> Judgement:
     name = spec.id
     told = [_told(name, mesh, limit) for mesh in meshes if mesh.checked]
-    broken = _broken(spec, counted)
-    if any(one.because is Because.CRASHED for one in counted):
+    broken = broken_reasons(found, name)
+    if any(why is Because.CRASHED for why, _ in found.broken):
         return judged(ElementStatus.UNDECIDED, *broken, *told)
     hidden = unseen_meshes(evidence, name)
     failed = [mesh for mesh in meshes if min(mesh.shares) > limit]
     if failed:
         why = (because("surface.fail", **dict(_told(name, mesh, limit).fields)) for mesh in failed)
         return judged(ElementStatus.FAIL, *why, *broken, *hidden)
-    absent = [rule for rule in spec.rules if all(one.name != rule for one in counted)]
-    if absent:
-        return judged(ElementStatus.NOT_ASSESSED, because("checks.absent", element=name, rules=absent), *broken)
-    doubts = [*broken, *hidden, *_units(evidence, name), *rims(evidence, name)]
+    if found.absent:
+        absent = because("checks.absent", element=name, rules=list(found.absent))
+        return judged(ElementStatus.NOT_ASSESSED, absent, *broken)
+    doubts = [*broken, *hidden, *_units(evidence, name), *_rims(evidence, name)]
     doubts += [
         because("surface.unusable", element=name, file=mesh.path, n=mesh.unusable) for mesh in meshes if mesh.unusable
     ]
@@ -138,17 +137,6 @@ def _told(name: str, mesh: _Mesh, limit: float) -> Reason:
     )  # fmt: skip
 
 
-def _broken(spec: SurfaceRateSpec, counted: Sequence[Outcome]) -> tuple[Reason, ...]:
-    """Why rules did not run, and where."""
-    reasons = sorted({one.because for one in counted if one.because.opens}, key=lambda why: why is not Because.CRASHED)
-    return tuple(
-        because(
-            f"checks.{why}", element=spec.id, files=sorted({where_broken(one) for one in counted if one.because is why})
-        )
-        for why in reasons
-    )
-
-
 def _units(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     """Meshes whose format says another unit than is stated of them, until somebody answers for it."""
     return tuple(
@@ -158,13 +146,9 @@ def _units(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     )
 
 
-def rims(evidence: Evidence, name: str) -> tuple[Reason, ...]:
-    """Meshes that end in rims of which nobody states whether they should be there."""
-    return tuple(
-        because("surface.open-rim", element=name, file=one.source, n=one.found)
-        for one in evidence.outcomes
-        if one.name == "open-rim" and one.found
-    )
+def _rims(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Meshes that end in rims that nobody states."""
+    return tuple(because("surface.open-rim", element=name, file=file, n=n) for file, n in evidence.open_rims)
 
 
 def _parameters(meshes: Sequence[_Mesh]) -> tuple[tuple[str, float, str], ...]:
@@ -172,14 +156,9 @@ def _parameters(meshes: Sequence[_Mesh]) -> tuple[tuple[str, float, str], ...]:
     if not len(totals):
         return ()
     faulty, checked, wrong, area = totals.sum(axis=0).tolist()
-    return (
-        ("faulty", faulty, "items"), ("checked", checked, "items"), ("area-faulty", wrong, "m2"), ("area", area, "m2"),
-    )  # fmt: skip
-
-
-def _details(spec: SurfaceRateSpec, counted: Sequence[Outcome]) -> tuple[tuple[str, float, float], ...]:
-    return tuple(
-        (rule, float(sum(one.found for one in mine)), float(max(one.checked for one in mine)))
-        for rule in spec.rules
-        if (mine := [one for one in counted if one.name == rule])
-    )
+    counts = (("faulty", faulty, "items"), ("checked", checked, "items"))
+    units = {mesh.unit for mesh in meshes}
+    if len(units) > 1:
+        return counts  # areas of which one has no unit add up to nothing
+    (unit,) = units
+    return (*counts, ("area-faulty", wrong, unit), ("area", area, unit))

@@ -5,7 +5,7 @@ import re
 from enum import StrEnum
 from pathlib import Path
 
-from foparq.errors import UnreadableError
+from foparq.errors import InputError, UnreadableError
 
 _HEAD = 8192
 
@@ -52,6 +52,9 @@ _PLY = re.compile(rb"^ply[ \t]*[\r\n]")
 _OFF = re.compile(rb"^(?:[ \t]*#[^\r\n]*[\r\n]|[ \t\r\n])*+(?:ST)?C?N?4?n?OFF(?=[ \t\r\n#])")
 #: a line of an OBJ; a file that begins with a long comment has none in its head
 _OBJ = re.compile(rb"(?:^|[\r\n])[ \t]*(?:#|(?:v|vt|vn|vp|f|o|g|s|l|p|mtllib|usemtl)[ \t])")
+_SUFFIXES = frozenset({".ply", ".obj", ".stl", ".off", ".glb", ".gltf"})  #: of a mesh that tells nothing itself
+#: one of the parts of a glTF stands in its head
+_GLTF = (b'"asset"', b'"accessors"', b'"buffers"', b'"bufferViews"', b'"meshes"', b'"nodes"', b'"scenes"')
 _STL_HEADER, _STL_FACET = 84, 50  #: bytes
 _DWG = re.compile(rb"^AC(1\.|[12]0)\d")
 #: a DXF in text: group code 0 and SECTION, perhaps after comments (999) and dirt
@@ -133,6 +136,21 @@ def mesh_format_of(path: Path) -> MeshFormat:
     if found is None:
         raise UnreadableError("mesh.unknown-format", file=path.name)
     return found
+
+
+def holds_mesh(path: Path) -> bool:
+    """Whether a loose file is one of the formats that hold nothing but meshes."""
+    if not path.is_file():
+        return False
+    try:
+        form = mesh_format_of(path)
+        if form is MeshFormat.GLTF:  # in braces, as a GeoJSON is
+            with path.open("rb") as stream:
+                head = stream.read(_HEAD)
+            return any(key in head for key in _GLTF) and b'"Feature' not in head
+    except (InputError, OSError):
+        return path.suffix.casefold() in _SUFFIXES  # told as what it is by who reads it
+    return form is not MeshFormat.DXF
 
 
 def _refuse_others(path: Path, head: bytes, text: bytes) -> None:

@@ -5,36 +5,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from foparq.errors import InputError
 from foparq.model.delivery import Source, SourceStatus
 from foparq.model.drawing import DrawingUnit, UnitOrigin
 from foparq.model.mesh import Mesh, MeshReading, RawMesh
 from foparq.profile.manifest import ConfirmedSection, MeshSection
 from foparq.profile.schema import Profile
-from foparq.read.guard.sniff import MeshFormat, mesh_format_of
 from foparq.read.intake import Intake
 from foparq.read.once import read_once
 from foparq.read.statements import confirms
 from foparq.units import parse_length_unit
-
-_SUFFIXES = frozenset({".ply", ".obj", ".stl", ".off", ".glb", ".gltf"})  #: of a file that tells nothing itself
-_HEAD = 8192  #: bytes in which a glTF names one of its parts
-_GLTF = (b'"asset"', b'"accessors"', b'"buffers"', b'"bufferViews"', b'"meshes"', b'"nodes"', b'"scenes"')
-
-
-def holds_mesh(path: Path) -> bool:
-    """Whether a loose file is one of the formats that hold nothing but meshes."""
-    if not path.is_file():
-        return False
-    try:
-        form = mesh_format_of(path)
-        if form is MeshFormat.GLTF:  # in braces, as a GeoJSON is
-            with path.open("rb") as stream:
-                head = stream.read(_HEAD)
-            return any(key in head for key in _GLTF) and b'"Feature' not in head
-    except (InputError, OSError):
-        return path.suffix.casefold() in _SUFFIXES  # told as what it is by who reads it
-    return form is not MeshFormat.DXF
 
 
 def take_mesh(

@@ -18,8 +18,7 @@ from foparq.profile.schema import LimitsSpec, Profile
 from foparq.read.delivery import read_loose
 from foparq.read.guard.parent import guarded
 from foparq.read.guard.paths import files_of
-from foparq.read.guard.sniff import format_of
-from foparq.read.mesh.take import holds_mesh
+from foparq.read.guard.sniff import format_of, holds_mesh
 from foparq.read.table.csv_text import is_workbook
 from foparq.read.table.revisions import is_aside, revision_of
 from foparq.read.table.tables import read_checkpoints, read_distances, read_feature_list

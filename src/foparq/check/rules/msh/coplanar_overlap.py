@@ -25,9 +25,9 @@ def coplanar_overlap(surface: Surface) -> Hits:
 
     Notes
     -----
-    O(n log n + pairs). No more than two million pairs are looked at, those of MSH022 among them. Does not tell copies
-    of a face: see MSH021 duplicate-face; nor two skins that lie on each other but for rounding, which cross everywhere:
-    see MSH022 surface-self-intersection.
+    O(n log n + pairs). With more than two million pairs, those of MSH022 among them, it ends at its bound. Does not
+    tell copies of a face: see MSH021 duplicate-face; nor two skins that lie on each other but for rounding, which cross
+    everywhere: see MSH022 surface-self-intersection.
     """
     shape = surface.shape
     face, other = shape.overlaps.face, shape.overlaps.other

@@ -29,7 +29,7 @@ def surface_self_intersection(surface: Surface) -> Hits:
 
     Notes
     -----
-    O(n log n + pairs). No more than two million pairs are looked at in groups, those of MSH023 among them. Does not
+    O(n log n + pairs). With more than two million pairs, those of MSH023 among them, it ends at its bound. Does not
     tell faces that lie on each other in one plane: see MSH023 coplanar-overlap; nor copies of a face: see MSH021
     duplicate-face.
     """
