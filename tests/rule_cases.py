@@ -104,7 +104,7 @@ def _case(rule: Rule, case: dict[str, Any]) -> Case:
 
 def _mesh_case(rule: Rule, case: dict[str, Any]) -> MeshCase:
     given = case["given"]
-    part = part_of(given_surface(given), closed=given.get("closed"))
+    part = part_of(given_surface(given), closed=given.get("closed"), rims=given.get("rims"))
     weld = "identical" if given.get("weld", True) else "none"
     return MeshCase(
         **_said(rule, case), given=input_of(rule.subject, part, weld=weld), part=part, weld=weld,

@@ -105,8 +105,10 @@ def test_a_unit_against_that_of_the_format_leaves_it_open_until_somebody_answers
     assert elements(confirmed)["Q3-mesh"].status is ElementStatus.PASS
 
 
-def test_an_acceptance_says_that_the_place_of_the_surface_was_not_compared() -> None:
-    assert messages(elements(grid(4, 5))["Q3-mesh"]) == ["surface.pass", "surface.not-compared"]
+def test_an_acceptance_says_on_whose_word_the_surface_ends_and_that_its_place_was_not_compared() -> None:
+    assert messages(elements(grid(4, 5))["Q3-mesh"]) == [
+        "surface.pass", "surface.stated-rims", "surface.not-compared",
+    ]  # fmt: skip
 
 
 def test_both_shares_beyond_the_limit_reject() -> None:

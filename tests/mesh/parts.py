@@ -29,12 +29,12 @@ def profile(weld: str = "identical") -> Profile:
     return shipped.model_copy(update={"mesh": shipped.mesh.model_copy(update={"weld": weld})})
 
 
-def part_of(surface: Mesh, *, closed: bool | None = None) -> Part:
+def part_of(surface: Mesh, *, closed: bool | None = None, rims: int | None = None) -> Part:
     """A surface in metres as it would be delivered, in one group without a name."""
     group = np.zeros(surface.faces, dtype=np.intp)
     return Part(
         path="made.ply", points=surface.points, corners=surface.corners, starts=surface.starts, group=group,
-        groups=("",), reading=MeshReading(version="made"), unit=METRES, closed=closed,
+        groups=("",), reading=MeshReading(version="made"), unit=METRES, closed=closed, rims=rims,
     )  # fmt: skip
 
 

@@ -13,7 +13,7 @@ _REMARKS = frozenset({
     "evidence.names-only", "evidence.good", "evidence.absent-confirmed", "evidence.distances-confirmed",
     "checks.preview", "checks.unfit", "faulty.free", "faulty.probable", "faulty.shared",
     "features.unmapped", "omission.net", "omission.unproven", "evidence.most-confirmed", "evidence.unnamed",
-    "surface.not-compared",
+    "surface.not-compared", "surface.stated-rims",
 })  # fmt: skip
 
 

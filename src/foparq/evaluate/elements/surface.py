@@ -17,6 +17,7 @@ from foparq.model.mesh import Mesh
 from foparq.profile.elements import SurfaceRateSpec
 
 _MEASURE = "foparq:faulty-surface"
+_STATED = "stated-rim"
 _OPENINGS = "hole"  #: the rule whose sizes are areas that are not there
 
 
@@ -124,9 +125,10 @@ def _judge(spec: SurfaceRateSpec, evidence: Evidence, meshes: Sequence[_Mesh], f
         for mesh in meshes
         if max(mesh.shares) > limit
     ]
+    stated = _stated(evidence, meshes, name)
     if doubts:
-        return judged(ElementStatus.UNDECIDED, *doubts, *told)
-    return judged(ElementStatus.PASS, *told, because("surface.not-compared", element=name))
+        return judged(ElementStatus.UNDECIDED, *doubts, *told, *stated)
+    return judged(ElementStatus.PASS, *told, *stated, because("surface.not-compared", element=name))
 
 
 def _told(name: str, mesh: _Mesh, limit: float) -> Reason:
@@ -149,6 +151,16 @@ def _units(evidence: Evidence, name: str) -> tuple[Reason, ...]:
 def _rims(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     """Meshes that end in rims that nobody states."""
     return tuple(because("surface.open-rim", element=name, file=file, n=n) for file, n in evidence.open_rims)
+
+
+def _stated(evidence: Evidence, meshes: Sequence[_Mesh], name: str) -> tuple[Reason, ...]:
+    """Where surfaces end because somebody states it: an acceptance rests on that word."""
+    units = {mesh.path: mesh.unit for mesh in meshes}
+    return tuple(
+        because("surface.stated-rims", element=name, file=one.source, n=one.found, area=(one.total, units[one.source]))
+        for one in evidence.outcomes
+        if one.name == _STATED and one.found
+    )
 
 
 def _parameters(meshes: Sequence[_Mesh]) -> tuple[tuple[str, float, str], ...]:
