@@ -190,7 +190,6 @@ def comb() -> tuple[list[tuple[int, int]], Mesh]:
     return cells, facade(20, 20, cells)
 
 
-@wrong(strict=True, reason="MSH011 takes the longest loop for the rim: a ragged opening passes, the outline is told")
 def test_a_ragged_opening_is_told_and_not_the_outline(audited: Audited) -> None:
     cells, of = comb()
     answer = audited(Meshes(files={"a": of}, closed=False))

@@ -126,7 +126,8 @@ def test_many_tiny_faces_do_not_dilute_an_opening() -> None:
         starts=np.arange(0, 4 * (24 + 2500) + 1, 4), group=np.zeros(24 + 2500, dtype=np.intp),
     )  # fmt: skip
     found = elements(both)["Q3-mesh"]
-    assert found.status in {ElementStatus.UNDECIDED, ElementStatus.FAIL}
+    assert found.status is ElementStatus.UNDECIDED
+    assert "surface.one-share" in messages(found)
     assert found.value is not None
     assert found.value > 0.1
 

@@ -145,10 +145,9 @@ def _fin(made: Planted, row: int) -> bool:
     (apex,) = made.add((places[0] + places[1]) / 2 + HEIGHT * _normal(places))
     made.faces.append([b, a, apex])
     made.tell("MSH012", shapely.LineString(places[:2]), float(np.linalg.norm(places[1] - places[0])))
-    # From the centroid of two edges of a triangle to these edges it is half of the triangle.
+    # What would close the two sides is the face itself.
     places = made.at([a, apex, b])
-    half = np.linalg.norm(np.cross(places[1] - places[0], places[2] - places[0])) / 4
-    made.tell("MSH011", shapely.LineString(places), float(half))
+    made.tell("MSH011", shapely.LineString(places), measure(places))
     return False
 
 

@@ -8,12 +8,15 @@ import numpy as np
 from foparq.columns import Coordinates, Index, Reals
 from foparq.mesh.borders import Borders
 from foparq.mesh.polygons import blocks, face_of, following, members
+from foparq.mesh.shape import area_vectors, flatness
 from foparq.mesh.vectors import cross, lengths, overflowing
 
 #: vertices of a border up to which every pair of them is measured
 _EVERY_PAIR = 1024
 #: directions in which longer borders are looked at; no direction is farther than 0.08 from one of them
 _DIRECTIONS = 1024
+#: of the root of the area of a border: how far it may leave its plane and be plane
+_LEVEL = 0.1
 #: distances computed in one step
 _DISTANCES = 2**21
 
@@ -56,6 +59,35 @@ def border_sizes(points: Coordinates, borders: Borders) -> BorderSizes:
     found.area[~borders.closed] = np.nan
     _diameters(points, borders, found.diameter)
     return found
+
+
+def fill_areas(points: Coordinates, borders: Borders, sizes: BorderSizes) -> Reals:
+    """Area of what would close every border.
+
+    Parameters
+    ----------
+    points : (n, 3) float, metres
+    borders : Borders
+    sizes : BorderSizes
+        Of these borders.
+
+    Returns
+    -------
+    (k,) float, square metres
+        Of a border that lies in a plane but for a tenth of the root of its area, that area, however ragged it is: the
+        area vector. Of any other one that of the triangles from its centroid to its edges: lobes of the area vector
+        that turn against each other would cancel. A chain is closed from its end to its beginning.
+
+    Notes
+    -----
+    O(b).
+    """
+    begin, vertex = _vertices(borders, np.arange(len(borders.last)))
+    if not len(borders.last):
+        return np.zeros(0)
+    flat = lengths(area_vectors(points, vertex, begin))
+    level = flatness(points, vertex, begin).distance <= _LEVEL * np.sqrt(flat)
+    return np.where(level, flat, np.maximum(flat, sizes.fan))
 
 
 def _measure(points: Coordinates, borders: Borders, found: BorderSizes, first: int, stop: int) -> None:

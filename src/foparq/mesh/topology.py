@@ -15,7 +15,7 @@ from foparq.mesh.duplicates import Duplicates, duplicate_faces
 from foparq.mesh.edges import Edges, edges
 from foparq.mesh.fans import fans
 from foparq.mesh.grouping import joined
-from foparq.mesh.holes import BorderSizes, border_sizes
+from foparq.mesh.holes import BorderSizes, border_sizes, fill_areas
 from foparq.mesh.orientation import Orientation, orientation
 from foparq.mesh.polygons import chosen, face_of, following, members
 from foparq.mesh.shape import area_vectors, flatness, triangle_shapes
@@ -24,14 +24,13 @@ from foparq.mesh.tjunctions import TJunctions, t_junctions
 from foparq.mesh.triangulate import Triangulation, triangulate
 from foparq.mesh.turned import Turned, turned
 from foparq.mesh.vectors import lengths
+from foparq.mesh.widths import by_width
 
 if TYPE_CHECKING:
     from foparq.mesh.crossing_groups import Groups, Overlaps
     from foparq.mesh.intersections import Intersections
 
 _MOST_CORNERS = 5_000  #: of a polygon that is cut into triangles: that takes a step for each corner and each ear
-_DIGITS = 6  #: of logarithms of lengths that are compared: what differs by rounding of coordinates only is equal
-_TINY = float(np.finfo(float).tiny)
 _TRIANGLE = 3
 _KEPT = 2_000_000  #: pairs of faces that intersect; beyond, nothing is told of any
 
@@ -101,6 +100,11 @@ class Topology:
         return border_sizes(self.points, self.borders)
 
     @cached_property
+    def fills(self) -> Reals:
+        """(k,) areas of what would close the borders."""
+        return fill_areas(self.points, self.borders, self.border_sizes)
+
+    @cached_property
     def border_faces(self) -> Index:
         """(b,) face along every edge of the borders."""
         return self.boundary_faces(self.borders.edges)
@@ -130,26 +134,8 @@ class Topology:
 
     @cached_property
     def _by_width(self) -> Index:
-        """(k,) borders, wider ones first, of like width longer ones; of equals that of the lowest vertex.
-
-        An opening may be longer than the outline around it, but never wider.
-        """
-        found, sizes = self.borders, self.border_sizes
-        if not len(found.last):
-            return np.empty(0, dtype=np.intp)
-        low = np.minimum.reduceat(self._rank[found.vertices], found.starts[:-1])
-        wide, long = (np.round(np.log(np.maximum(size, _TINY)), _DIGITS) for size in (sizes.diameter, sizes.length))
-        return np.lexsort((low, -long, -wide))
-
-    @cached_property
-    def _rank(self) -> Index:
-        """(n,) vertices of the borders by x, then y, then z; those of one place are alike."""
-        rank = np.zeros(len(self.points), dtype=np.intp)
-        vertex = np.unique(self.borders.vertices)
-        place = self.points[vertex]
-        order = np.lexsort((place[:, 2], place[:, 1], place[:, 0]))
-        rank[vertex[order]] = np.arange(len(vertex))
-        return rank
+        """(k,) borders, wider ones first."""
+        return by_width(self.points, self.borders, self.border_sizes)
 
     @cached_property
     def orientation(self) -> Orientation:

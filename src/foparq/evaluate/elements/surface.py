@@ -104,7 +104,8 @@ def _tally(mesh: Mesh, counted: Sequence[Outcome]) -> _Mesh:
 
 def _judge(spec: SurfaceRateSpec, evidence: Evidence, meshes: Sequence[_Mesh], found: Tally, limit: float) -> Judgement:
     name = spec.id
-    told = [_told(name, mesh, limit) for mesh in meshes if mesh.checked]
+    worst_first = sorted(meshes, key=lambda mesh: -max(mesh.shares))
+    told = [_told(name, mesh, limit) for mesh in worst_first if mesh.checked]
     broken = broken_reasons(found, name)
     if any(why is Because.CRASHED for why, _ in found.broken):
         return judged(ElementStatus.UNDECIDED, *broken, *told)

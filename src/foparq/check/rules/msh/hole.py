@@ -30,9 +30,9 @@ def hole(surface: Surface) -> Hits:
     Returns
     -------
     Hits
-        One a loop: place is the loop, size the area of its fill: of the triangles from the centroid of the line to its
-        edges, which lobes that turn against each other do not cancel. The item is the face at its first edge; all faces
-        along the loop are at fault.
+        One a loop: place is the loop, size the area of its fill: that of the loop where it is plane but for a tenth of
+        the root of that area, else of the triangles from the centroid of the line to its edges. The item is the face at
+        its first edge; all faces along the loop are at fault.
 
     Notes
     -----
@@ -43,5 +43,5 @@ def hole(surface: Surface) -> Hits:
     shape = surface.shape
     row = np.flatnonzero(~surface.rim)
     first, faces = shape.faces_along(row)
-    size = shape.border_sizes.fan[row] * surface.metres**2
+    size = shape.fills[row] * surface.metres**2
     return hits(first, surface.borders(row), size, also=faces)

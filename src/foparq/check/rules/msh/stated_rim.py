@@ -34,4 +34,4 @@ def stated_rim(surface: Surface) -> Hits:
     shape = surface.shape
     row = np.flatnonzero(surface.rim & ~surface.doubtful_rim)
     first, _ = shape.faces_along(row)
-    return hits(first, surface.borders(row), shape.border_sizes.fan[row] * surface.metres**2)
+    return hits(first, surface.borders(row), shape.fills[row] * surface.metres**2)
