@@ -21,7 +21,7 @@ import threading
 import tomllib
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from pathlib import Path
 from queue import Queue
@@ -37,6 +37,14 @@ _HOUSE = ("tests/test_contributing.py", "tests/test_packaging.py", "tests/test_c
 _LEFT = shutil.ignore_patterns(
     ".git", ".venv", "__pycache__", "audit", ".hypothesis", "data", "*.log", ".*_cache", "dist", "node_modules"
 )
+#: where doctests lie
+_DOCTESTS = "src"
+#: tests that reach no room that is mutated, or everything at once and say nothing of its own: not learnt, never run
+_LEFT_OUT = (
+    *_HOUSE, "tests/mesh/", "tests/test_metamorphic_meshes.py", "tests/test_metamorphic_random.py",
+    "tests/attacks/test_meshes.py", "tests/attacks/test_mesh_statements.py", "tests/attacks/test_sound_meshes.py",
+)  # fmt: skip
+_LONG = ("tests/attacks/", "tests/test_", "src")  #: learnt first, so that no worker waits for them in the end
 _PATIENCE, _SLOWER = 20.0, 10.0  #: seconds that every test may take, and how much slower than without a mutant
 _FIRST = 60  #: tests of the first step
 _CONFIGURE = ""  #: the test that functions belong to which run before any test
@@ -73,9 +81,29 @@ class Reach:
             order |= {test: _PATIENCE + _SLOWER * spent for spent, test in sorted(group)}
         return order
 
+    def forget(self, file: str) -> None:
+        """Leave out the tests of a file."""
+        gone = {test for test in self.seconds if test.split("::")[0] == file or _is_doctest(test, file)}
+        self.seconds = {test: spent for test, spent in self.seconds.items() if test not in gone}
+        for rows in self.called.values():
+            for name, tests in rows.items():
+                rows[name] = [test for test in tests if test not in gone]
+
+    def add(self, seconds: Mapping[str, float], called: Mapping[str, Mapping[str, set[str]]]) -> None:
+        """Take in the tests of a file."""
+        self.seconds |= seconds
+        for file, functions in called.items():
+            rows = self.called.setdefault(file, {})
+            for name, tests in functions.items():
+                rows[name] = sorted({*rows.get(name, ()), *tests})
+
     def everything(self) -> dict[str, float]:
         """All tests."""
         return {test: _PATIENCE + _SLOWER * spent for test, spent in self.seconds.items()}
+
+
+def _is_doctest(test: str, file: str) -> bool:
+    return file == _DOCTESTS and test.startswith(f"{_DOCTESTS}/")
 
 
 @dataclass(slots=True)
@@ -129,30 +157,36 @@ def copies(folder: Path, count: int) -> list[Path]:
     return made
 
 
-def reach_of(tree: Path, folder: Path, *, fresh: bool) -> Reach:
-    """What the tests reach, learnt once a folder; files of tests that are new or changed are learnt again."""
+def reach_of(trees: list[Path], folder: Path, *, fresh: bool) -> Reach:
+    """What the tests reach, learnt once a folder; files of tests that are new or changed are learnt again.
+
+    Every tree learns beside the others, one file of tests at a time; what is learnt is kept at once.
+    """
     kept = folder / "reach.json"
-    reach, known = Reach({}, {}), {}
+    reach, known = Reach({}, {}), dict[str, str]()
     if kept.is_file() and not fresh:
         said = json.loads(kept.read_text(encoding="utf-8"))
         reach, known = Reach(said["called"], said["seconds"]), said["files"]
     now = {
-        path.relative_to(tree).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in sorted((tree / "tests").rglob("test_*.py"))
-    }
-    changed = [file for file, digest in now.items() if known.get(file) != digest and file not in _HOUSE]
-    if changed:
-        files = [*changed, "src"] if not known else changed
-        old = {test for test in reach.seconds if test.split("::")[0] not in now or test.split("::")[0] in files}
-        seconds, called = _learn(tree, folder, files)
-        reach.seconds = {test: spent for test, spent in reach.seconds.items() if test not in old} | seconds
-        for file in {*reach.called, *called}:
-            rows = reach.called.setdefault(file, {})
-            for name in {*rows, *called.get(file, {})}:
-                rows[name] = sorted({*rows.get(name, ())} - old | called.get(file, {}).get(name, set()))
-        said = {"called": reach.called, "seconds": reach.seconds, "files": now}
+        path.relative_to(trees[0]).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted((trees[0] / "tests").rglob("test_*.py"))
+    } | {_DOCTESTS: ""}
+    for file in sorted(set(known) - set(now)):
+        reach.forget(file)
+        del known[file]
+    todo = [file for file in now if known.get(file) != now[file] and not file.startswith(_LEFT_OUT)]
+    for number, (file, seconds, called) in enumerate(_learn(trees, folder, sorted(todo, key=_longest_first)), 1):
+        reach.forget(file)
+        reach.add(seconds, called)
+        known[file] = now[file]
+        said = {"called": reach.called, "seconds": reach.seconds, "files": known}
         kept.write_text(json.dumps(said), encoding="utf-8")
+        print(f"learnt {number}/{len(todo)} {sum(seconds.values()):6.1f} s {file}", flush=True)
     return reach
+
+
+def _longest_first(file: str) -> tuple[bool, str]:
+    return not file.startswith(_LONG), file
 
 
 def users_of(source: Path) -> dict[str, set[str]]:
@@ -166,9 +200,28 @@ def users_of(source: Path) -> dict[str, set[str]]:
     return users
 
 
-def _learn(tree: Path, folder: Path, files: list[str]) -> tuple[dict[str, float], dict[str, dict[str, set[str]]]]:
-    """Seconds of the tests of some files, and which functions each calls."""
-    pipe = folder / "reach.pipe"
+def _learn(
+    trees: list[Path], folder: Path, files: list[str]
+) -> Iterator[tuple[str, dict[str, float], dict[str, dict[str, set[str]]]]]:
+    """Every file, the seconds of its tests, and which functions each calls."""
+    free: Queue[Path] = Queue()
+    for tree in trees:
+        free.put(tree)
+
+    def one(file: str) -> tuple[str, dict[str, float], dict[str, dict[str, set[str]]]]:
+        tree = free.get()
+        try:
+            return file, *_learn_one(tree, folder / f"{tree.name}.pipe", file)
+        finally:
+            free.put(tree)
+
+    with ThreadPoolExecutor(len(trees)) as pool:
+        for task in as_completed([pool.submit(one, file) for file in files]):
+            yield task.result()
+
+
+def _learn_one(tree: Path, pipe: Path, file: str) -> tuple[dict[str, float], dict[str, dict[str, set[str]]]]:
+    """Seconds of the tests of one file, and which functions each calls."""
     pipe.unlink(missing_ok=True)
     os.mkfifo(pipe)
     called: dict[str, dict[str, set[str]]] = defaultdict(lambda: defaultdict(set))
@@ -177,7 +230,7 @@ def _learn(tree: Path, folder: Path, files: list[str]) -> tuple[dict[str, float]
     listener.start()
     trace = str(HERE / "trace")
     worker = Worker(tree, {"FOPARQ_REACH": str(pipe), "FOPARQ_TRACE": trace, "PYTHONPATH": trace})
-    run = worker.run(files, None, stop=False)
+    run = worker.run([file], None, stop=False)
     worker.close()
     os.write(end, b"\n")
     listener.join()
@@ -324,8 +377,9 @@ def main() -> None:
     ask.add_argument("--folder", type=Path, default=Path(tempfile.gettempdir()) / "foparq-mutation")
     given = ask.parse_args()
     given.folder.mkdir(parents=True, exist_ok=True)
-    workers = [Worker(tree) for tree in copies(given.folder, given.workers)]
-    reach = reach_of(workers[0].tree, given.folder, fresh=given.fresh)
+    trees = copies(given.folder, given.workers)
+    reach = reach_of(trees, given.folder, fresh=given.fresh)
+    workers = [Worker(tree) for tree in trees]
     # The checkout may change meanwhile; the copies do not.
     source = workers[0].tree / "src" / "foparq"
     reach.users = users_of(source)
