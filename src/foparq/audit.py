@@ -15,12 +15,12 @@ import shapely
 
 from foparq import __version__
 from foparq.check.bounds import Broken, Budget, budget_of
-from foparq.check.drawn.ground import Nearness
-from foparq.check.drawn.placements import count_listed
 from foparq.check.drawn.symbols import with_symbols
-from foparq.check.drawn.ties import tie_evidence
 from foparq.check.drawn.witnesses import with_witnesses
 from foparq.check.run import check_part
+from foparq.check.tables.ground import Nearness
+from foparq.check.tables.listed import listed_in
+from foparq.check.tables.ties import prepare, tie_evidence
 from foparq.check.validate import validate_checks
 from foparq.errors import ManifestError
 from foparq.evaluate.decisions import wrong_decision
@@ -175,6 +175,8 @@ def _judged(
 ) -> Audit:
     started = datetime.now(UTC).isoformat(timespec="seconds")
     profile, scale = terms.profile, terms.scale
+    if not loose:
+        prepare(delivery)
     ties, untied = _tied(delivery, profile, scale) if not loose else (None, None)
     if not loose:
         delivery = with_witnesses(delivery, ties)
@@ -250,8 +252,7 @@ def _counted(
     delivery: Delivery, gap: float, near: float, profile: Profile
 ) -> tuple[FeatureCounts | None, Broken | None]:
     """Delivered features, or why their count broke off."""
-    count = partial(count_listed, features=delivery.features, gap=gap, near=near)
-    return _once("counting features", count, (delivery.drawings,), delivery, profile)
+    return _once("counting features", partial(listed_in, gap=gap, near=near), (delivery,), delivery, profile)
 
 
 def _once(

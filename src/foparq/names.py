@@ -4,12 +4,15 @@
 import difflib
 import unicodedata
 from collections.abc import Iterable
+from functools import lru_cache
 
+_REMEMBERED = 4096  #: names: lists repeat a few of them thousands of times
 _SHORT = 3  #: letters of a word that is not taken for a plural: ``"S"`` is a facade
 #: plurals of Portuguese that change more than their last letter: vãos, portões, painéis, óis, gradis
 _ENDINGS = {"oes": "ao", "aes": "ao", "ais": "al", "eis": "el", "ois": "ol", "is": "il"}
 
 
+@lru_cache(maxsize=_REMEMBERED)
 def folded(name: str) -> str:
     """Name without regard to case, blanks around it, and whether accents are composed.
 
@@ -53,6 +56,7 @@ def nearest(word: str, known: Iterable[str]) -> list[str]:
     return [names[n] for n in sorted(range(len(names)), key=lambda n: -alike[n])]
 
 
+@lru_cache(maxsize=_REMEMBERED)
 def of_kind(name: str) -> str:
     """Key of a kind of thing: singular and plural, with and without accents, have one.
 

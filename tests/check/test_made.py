@@ -11,7 +11,7 @@ from tests.check.test_ties import NEAR, checkpoints, ground, lies, texts
 
 from foparq.check.drawn.ground import ground_of
 from foparq.check.drawn.made import mostly, only_for_points
-from foparq.check.drawn.ties import tie_points
+from foparq.check.tables.points import tie_points
 from foparq.findings.ties import Lies
 from foparq.model.drawing import Drawing, Labels, Reading
 from foparq.model.items import Items, Role

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 import shapely
 
-from foparq.check.drawn.ground import Ground, Nearness, ground_of
-from foparq.check.drawn.ties import tie_evidence, tie_points
+from foparq.check.drawn.ground import DrawnGround, ground_of
+from foparq.check.tables.ground import Nearness
+from foparq.check.tables.points import tie_points
+from foparq.check.tables.ties import tie_evidence
 from foparq.findings.ties import Ends, Lies
 from foparq.model.delivery import Delivery
 from foparq.model.drawing import Drawing, DrawingUnit, Labels, Reading, UnitOrigin
@@ -69,7 +71,7 @@ def checkpoints(delivered: np.ndarray, surveyed: np.ndarray | None = None, **cha
     })  # fmt: skip
 
 
-def ground(made: Drawing) -> Ground:
+def ground(made: Drawing) -> DrawnGround:
     found = ground_of(made, NEAR)
     assert found is not None
     return found
@@ -264,3 +266,14 @@ def test_a_place_that_two_checkpoints_share_names_neither() -> None:
     points = checkpoints(in_space(CORNERS[[0, 0, 1]]))
     places = in_space(CORNERS[[0, 1]])[np.newaxis]
     assert ends(distances([("", "")], [1.0], places=places), points).at.tolist() == [[-1, 2]]
+
+
+@pytest.mark.parametrize(("half", "known"), [(0.005, Ends.POINTS), (0.0, Ends.ABSENT)])
+def test_ends_are_as_exact_as_their_own_digits_and_no_more(half: float, known: Ends) -> None:
+    """Lengths to a tenth of a millimetre between ends to a centimetre: these are corners all the same."""
+    corners = np.stack([in_space(CORNERS[:3]), in_space(CORNERS[1:4])], axis=1)
+    given = distances(
+        [("", "")] * 3, [between(0, 1), between(1, 2), between(2, 3)], places=corners + 0.004, printed=5e-5,
+        places_printed=np.full(3, half),
+    )  # fmt: skip
+    assert ends(given).ends.tolist() == [known] * 3

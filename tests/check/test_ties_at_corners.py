@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from tests.check.test_ties import BOXES, CORNERS, NEAR, checkpoints, drawing, ground, in_space, lies, texts
 
-from foparq.check.drawn.distance_ties import tie_distances
-from foparq.check.drawn.ties import tie_points
+from foparq.check.tables.distances import tie_distances
+from foparq.check.tables.points import tie_points
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.tied import resolution_of
 from foparq.findings.ties import Ends, Lies, Ties

@@ -11,6 +11,7 @@ import foparq.evaluate
 from foparq.check.registry import all_rules
 from foparq.evaluate.balance import Incomparable
 from foparq.evaluate.measures import measure_counting, measures
+from foparq.evaluate.of_meshes import TWINS
 from foparq.evaluate.quality import Verdict
 from foparq.findings.because import Because
 from foparq.findings.table import Severity
@@ -37,6 +38,7 @@ def reasons() -> set[str]:
     found |= {f"checks.{because}" for because in Because if because.opens}
     found |= {f"files.{because}" for because in Because if because.opens and because is not Because.CRASHED}
     found |= {f"looser.{point}" for point in Point} | {f"severity.{severity}" for severity in Severity}
+    found |= {f"{message}-mesh" for message in TWINS}
     return found - {"measures.toml"}
 
 

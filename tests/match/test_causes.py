@@ -29,6 +29,9 @@ class Facade:
         found: Flags = footing(moved, self.work, within=np.full(len(moved), TIE), deep=False).line != NOTHING
         return found
 
+    def holds_enlarged(self, points: Coordinates, _: float) -> Flags:
+        return self.holds(points)
+
     def search(self, points: Coordinates) -> Cause | None:
         return by_place_or_size(points, self.corners, within=TIE, holds=self.holds)
 
@@ -64,15 +67,15 @@ class TestPlaceAndSize:
 def test_axes_and_units() -> None:
     facade = Facade(3)
     table = facade.points[:, [0, 2, 1]]  # the drawing's up stands in the third column
-    assert by_axes_or_unit(table, (1000.0,), facade.holds) == Cause("axes", axes=(0, 2, 1))
-    assert by_axes_or_unit(facade.points * 1000, (1000.0, 0.001), facade.holds) == Cause("unit", factor=0.001)
-    both = by_axes_or_unit(table * 1000, (0.001,), facade.holds)
+    assert by_axes_or_unit(table, (1000.0,), facade.holds_enlarged) == Cause("axes", axes=(0, 2, 1))
+    assert by_axes_or_unit(facade.points * 1000, (1000.0, 0.001), facade.holds_enlarged) == Cause("unit", factor=0.001)
+    both = by_axes_or_unit(table * 1000, (0.001,), facade.holds_enlarged)
     assert both == Cause("unit", axes=(0, 2, 1), factor=0.001)
-    assert by_axes_or_unit(facade.points + 0.01, (1000.0, 0.001), facade.holds) is None
+    assert by_axes_or_unit(facade.points + 0.01, (1000.0, 0.001), facade.holds_enlarged) is None
 
 
 def test_two_places_fit_anywhere() -> None:
     facade = Facade(1)
     two = np.repeat(facade.points[:2], 4, axis=0)
     assert facade.search(two - [0.2, 0.3, 0]) is None
-    assert by_axes_or_unit(two * 1000, (0.001,), facade.holds) is None
+    assert by_axes_or_unit(two * 1000, (0.001,), facade.holds_enlarged) is None

@@ -47,7 +47,7 @@ def test_a_mistake_is_told_with_its_own_key_and_line(
     ("text", "known"),
     [
         ("[delivery]\nx = 1\n", ["crs", "language", "profile", "scale", "title"]),
-        ("[features]\npath = 'f.csv'\nx = 1\n", ["path", "sheet"]),
+        ("[features]\npath = 'f.csv'\nx = 1\n", ["path", "sheet", "spacing"]),
         ("[checkpoints]\npath = 'f.csv'\nx = 1\n", ["path", "sheet", "survey_sd", "unit"]),
     ],
 )

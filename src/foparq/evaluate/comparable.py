@@ -3,6 +3,8 @@
 
 from foparq.evaluate.balance import Balance, Incomparable
 from foparq.evaluate.evidence import Evidence, Judgement, judged
+from foparq.evaluate.of_meshes import of_meshes
+from foparq.evaluate.on_meshes import elsewhere_on_meshes, no_mesh
 from foparq.evaluate.quality import ElementStatus, Reason, because, some
 from foparq.evaluate.tally import where_broken
 from foparq.findings.because import Because
@@ -31,12 +33,14 @@ def no_balance(evidence: Evidence, name: str) -> Judgement | None:
         return judged(ElementStatus.NOT_ASSESSED, because("features.no-list", element=name))
     if evidence.counts is not None:
         return None
+    if evidence.uncounted.opens:
+        broken = of_meshes([because(_BROKEN_OFF[evidence.uncounted], element=name)], evidence)
+    else:
+        broken = ()
     lost = evidence.lost("drawing")
     unread = (because("unseen.file", element=name, files=lost),) if lost else uncounted(evidence, name)
-    if unread:
-        return judged(ElementStatus.UNDECIDED, *unread)
-    if evidence.uncounted.opens:
-        return judged(ElementStatus.UNDECIDED, because(_BROKEN_OFF[evidence.uncounted], element=name))
+    if why := unread or broken or (no_mesh(evidence, name) if evidence.meshes_only else ()):
+        return judged(ElementStatus.UNDECIDED, *why)
     bound = any(drawing.classes for drawing in drawings)
     case = "features.not-counted" if bound else "features.no-classes" if drawings else "checks.no-drawing"
     return judged(ElementStatus.NOT_ASSESSED, because(case, element=name))
@@ -61,10 +65,11 @@ def doubtful(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     for doubt, message in _DOUBTS.items():
         doubted = {outcome.source: where_broken(outcome) for outcome in evidence.outcomes if outcome.because is doubt}
         bound = [drawing.path for drawing in evidence.delivery.drawings if drawing.classes]
+        bound += [mesh.path for mesh in evidence.delivery.meshes] if evidence.meshes_only else []
         files = [doubted[path] for path in bound if path in doubted]
         if files:
             why.append(because(message, element=name, files=files))
-    return tuple(why)
+    return (*of_meshes(why, evidence), *elsewhere_on_meshes(evidence.counts, name))
 
 
 def unit_doubts(evidence: Evidence, name: str) -> tuple[Reason, ...]:

@@ -34,7 +34,7 @@ def other_coordinates(surveyed: Coordinates, delivered: Coordinates, name: str) 
         return ()
     within = _NEAR * float(np.linalg.norm(np.ptp(there[:, seen], axis=0)))
 
-    def near(moved: Coordinates) -> Flags:
+    def near(moved: Coordinates, _: float = 1.0) -> Flags:
         found: Flags = np.linalg.norm((moved - there)[:, seen], axis=1) <= within
         return found
 

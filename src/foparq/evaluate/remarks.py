@@ -13,7 +13,8 @@ _REMARKS = frozenset({
     "evidence.names-only", "evidence.good", "evidence.absent-confirmed", "evidence.distances-confirmed",
     "checks.preview", "checks.unfit", "faulty.free", "faulty.probable", "faulty.shared",
     "features.unmapped", "omission.net", "omission.unproven", "evidence.most-confirmed", "evidence.unnamed",
-    "surface.not-compared", "surface.stated-rims",
+    "surface.not-compared", "surface.stated-rims", "evidence.names-only-mesh",
+    "omission.openings", "commission.confirmed", "commission.unlisted",
 })  # fmt: skip
 
 

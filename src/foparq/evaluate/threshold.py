@@ -155,7 +155,7 @@ def with_doubts(judgement: Judgement, tied: Tied, sample: Sample, remarks: tuple
     ----------
     tied : Tied
         What the sample was made from. Its doubts leave the judgement undecided, whatever the numbers say: they are
-        numbers about something else.
+        numbers about something else. What shows a part of the differences only leaves a pass undecided.
     remarks : tuple of Reason
         Further remarks.
     """
@@ -167,4 +167,6 @@ def with_doubts(judgement: Judgement, tied: Tied, sample: Sample, remarks: tuple
         # Reasons of a judgement that does not stand would be read as decisive.
         rest = judgement.why if judgement.status is ElementStatus.UNDECIDED else ()
         return judged(ElementStatus.UNDECIDED, *doubts, *rest, *remarks)
-    return judged(judgement.status, *judgement.why, *remarks)
+    if tied.one_way and judgement.status is ElementStatus.PASS:
+        return judged(ElementStatus.UNDECIDED, *tied.one_way, *remarks)
+    return judged(judgement.status, *judgement.why, *tied.one_way, *remarks)

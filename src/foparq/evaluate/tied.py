@@ -13,6 +13,7 @@ from foparq.columns import Flags, Index, Reals, Texts
 from foparq.evaluate.comparable import unit_doubts
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.facades import facade_doubts, unnamed_remark
+from foparq.evaluate.of_meshes import of_meshes
 from foparq.evaluate.quality import Reason, because, some
 from foparq.evaluate.reference import other_coordinates, other_lengths
 from foparq.findings.because import Because
@@ -36,6 +37,7 @@ class Tied(NamedTuple):
     differences: Reals  #: (m,) or (m, 3) metres, NaN where nothing was delivered
     doubts: tuple[Reason, ...]  #: why nothing can be accepted or rejected on them
     remarks: tuple[Reason, ...]  #: what is to be said beside them
+    one_way: tuple[Reason, ...] = ()  #: why nothing can be accepted on them, though it can be rejected
 
 
 def tied_points(points: Checkpoints, evidence: Evidence, name: str, *, fewest: int = 1) -> Tied:
@@ -53,7 +55,7 @@ def tied_points(points: Checkpoints, evidence: Evidence, name: str, *, fewest: i
     ties = evidence.ties.points if evidence.ties else None
     if ties is None:
         every = differences(points.delivered, points.surveyed)
-        return Tied(np.arange(len(points.id)), every, _untied(evidence, name), ())
+        return Tied(np.arange(len(points.id)), every, of_meshes(_untied(evidence, name), evidence), ())
     every = differences(ties.delivered, points.surveyed)
     rows = _worst(ties.group, np.nansum(every**2, axis=1))
     repeated = np.setdiff1d(np.arange(len(points.id)), rows)
@@ -64,7 +66,8 @@ def tied_points(points: Checkpoints, evidence: Evidence, name: str, *, fewest: i
     if taken.any():
         remarks.append(_naming("evidence.taken", name, points.id[taken]))
     counted, doubts = ties.held, _absent(points, ties, name)
-    if (confirmed := evidence.confirmation("checkpoints", NOT_DRAWN)) is not None:
+    # What is on no surface is in no mesh: there is nothing else of it that was not drawn.
+    if not evidence.meshes_only and (confirmed := evidence.confirmation("checkpoints", NOT_DRAWN)) is not None:
         absent = np.flatnonzero((ties.lies == Lies.ABSENT) | _made(ties))
         if len(absent):
             most = "evidence.most-confirmed" if 2 * len(absent) > len(points.id) else "evidence.absent-confirmed"
@@ -80,7 +83,7 @@ def tied_points(points: Checkpoints, evidence: Evidence, name: str, *, fewest: i
     slips = other_coordinates(points.surveyed, ties.delivered, name)
     doubts = (*slips, *doubts, *facade_doubts(ties, counted, name, fewest)) or unit_doubts(evidence, name)
     remarks += unnamed_remark(ties, counted, name)
-    return Tied(rows, every[rows], doubts, tuple(remarks))
+    return Tied(rows, every[rows], of_meshes(doubts, evidence), tuple(remarks), _one_way(points, ties, name))
 
 
 def tied_distances(distances: Distances, evidence: Evidence, name: str) -> Tied:
@@ -88,7 +91,7 @@ def tied_distances(distances: Distances, evidence: Evidence, name: str) -> Tied:
     ties = evidence.ties.distances if evidence.ties else None
     if ties is None:
         every = differences(distances.delivered, distances.measured)
-        return Tied(np.arange(len(distances.id)), every, _untied(evidence, name), ())
+        return Tied(np.arange(len(distances.id)), every, of_meshes(_untied(evidence, name), evidence), ())
     every = differences(ties.delivered, distances.measured)
     rows = _worst(ties.group, np.nan_to_num(every**2))
     repeated = np.setdiff1d(np.arange(len(distances.id)), rows)
@@ -106,7 +109,7 @@ def tied_distances(distances: Distances, evidence: Evidence, name: str) -> Tied:
         ties = replace(ties, ends=np.where(drawn, ties.ends, str(Ends.NAMES)))
     slips = other_lengths(distances.measured, ties.delivered, name)
     doubts = (*slips, *_not_of_drawing(distances, ties, name)) or unit_doubts(evidence, name)
-    return Tied(rows, every[rows], doubts, tuple(remarks))
+    return Tied(rows, every[rows], of_meshes(doubts, evidence), of_meshes(remarks, evidence))
 
 
 def too_small(found: Reals, survey_sd: float | None, resolution: float, name: str) -> tuple[Reason | None, bool]:
@@ -165,6 +168,12 @@ def _untied(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     return (because("evidence.no-drawing", element=name),)
 
 
+def _one_way(points: Checkpoints, ties: PointTies, name: str) -> tuple[Reason, ...]:
+    """That the nearest place of a surface was taken: how far a point slid along the surface cannot be seen."""
+    taken = ties.lies == Lies.TAKEN_SURFACE
+    return (_naming("evidence.across", name, points.id[taken], total=len(points.id)),) if taken.any() else ()
+
+
 def _made(ties: PointTies) -> Flags:
     """(n,) points on linework that shows nothing else."""
     return ties.made if len(ties.made) else np.zeros(len(ties.lies), dtype=bool)
@@ -192,6 +201,7 @@ def _of_all(points: Checkpoints, ties: PointTies, cause: Cause, name: str) -> Re
 
 
 _CAUSES = {
+    **{("mirror", axis): "evidence.cause-mirror-mesh" for axis in "xyz"},
     ("axes", ""): "evidence.cause-axes", ("unit", ""): "evidence.cause-unit", ("shift", ""): "evidence.cause-shift",
     ("mirror", "right"): "evidence.cause-mirror-right", ("mirror", "up"): "evidence.cause-mirror-up",
     ("scale", ""): "evidence.cause-scale", ("scale", "right"): "evidence.cause-scale-right",
@@ -204,8 +214,9 @@ def _explained(cause: Cause, file: str, name: str, n: int) -> Reason:
     right, up, depth = ((length, "m") for length in cause.shift)
     message = "evidence.cause-unit-axes" if cause.kind == "unit" and axes else _CAUSES[cause.kind, cause.along]
     return because(
-        message, element=name, n=n, file=file, axes=axes, factor=f"{cause.factor:.6g}", right=right, up=up, depth=depth
-    )
+        message, element=name, n=n, file=file, axes=axes, factor=f"{cause.factor:.6g}", right=right, up=up, depth=depth,
+        along=cause.along,
+    )  # fmt: skip
 
 
 def _without_confirmed(distances: Distances, evidence: Evidence, ties: DistanceTies) -> Texts:

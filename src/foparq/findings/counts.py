@@ -76,6 +76,18 @@ class Placements:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Unlisted:
+    """Surface of a mesh of which the list says nothing."""
+
+    path: str  #: of the mesh
+    pieces: int
+    area: float  #: of these, square metres
+    whole: float  #: area of the mesh, square metres
+    where: tuple[float, float, float] | None  #: a place on the largest, in axes of the mesh, metres
+    looked: bool = True  #: false: the spacing is too fine for the mesh
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FeatureCounts:
     """Delivered features by class and facade, n rows ordered by both.
 
@@ -93,6 +105,8 @@ class FeatureCounts:
     hidden: tuple[tuple[str, str, str], ...] = ()  #: class, facade and layer of items that nobody sees
     found: FoundFeatures = field(default_factory=FoundFeatures.none)  #: of which the counts are made
     placements: Placements | None = None  #: of the list; ``None`` if it gives no places
+    on_meshes: bool = False  #: features were looked for on meshes, where nobody can count them
+    unlisted: tuple[Unlisted, ...] = ()  #: a mesh each; none if the list does not state how far apart its places are
 
     def __post_init__(self) -> None:
         for name, instead in (("most", "count"), ("pieces", "most"), ("near", "count")):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How tables of evidence belong to the drawings beside them."""
+"""How tables of evidence belong to the drawings and meshes beside them."""
 
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -53,10 +53,12 @@ class Lies(StrEnum):
 
     VERTEX = "vertex"
     LINEWORK = "linework"
+    SURFACE = "surface"  #: on a mesh, between its vertices
     NAMED = "named"  #: at a point, block or lettering that bears its id
     TAKEN_NAMED = "taken-named"  #: its coordinates were taken from what bears its id
     TAKEN_VERTEX = "taken-vertex"  #: its coordinates were taken from the only vertex near by
-    ABSENT = "absent"  #: on no linework: not in the drawing
+    TAKEN_SURFACE = "taken-surface"  #: its coordinates are the nearest place of a mesh
+    ABSENT = "absent"  #: on no linework or surface: not in what was delivered
     UNTOLD = "untold"  #: no coordinates were delivered, and none could be taken
 
 

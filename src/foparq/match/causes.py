@@ -14,6 +14,7 @@ from foparq.columns import Coordinates, Flags, Index, Reals
 from foparq.units import LENGTHS
 
 Holds = Callable[[Coordinates], Flags]  #: whether the linework holds points (n, 3), as (n,)
+HoldsEnlarged = Callable[[Coordinates, float], Flags]  #: the same of points that were multiplied by a factor
 
 _FEWEST = 3  #: two points fit anywhere
 _ANCHORS = 6  #: pairs of points that are tried
@@ -22,8 +23,10 @@ _MOST_PAIRS = 2_000_000  #: pairs of vertices that one search may look at
 _SCALES = (0.5, 2.0)  #: a factor beyond is a unit, not a slip
 _SAME_FACTOR = 0.05  #: of lengths in another unit, whatever their own errors
 _UNITS = ("m", "mm", "cm", "in", "ft", "km")
-#: factors that a table in another unit is off by
-UNIT_FACTORS = tuple(sorted({LENGTHS[a] / LENGTHS[b] for a in _UNITS for b in _UNITS if a != b}))
+#: factors that a table in another unit is off by, the nearest to one first: a tiny one puts all points on one place
+UNIT_FACTORS = tuple(
+    sorted({LENGTHS[a] / LENGTHS[b] for a in _UNITS for b in _UNITS if a != b}, key=lambda f: (max(f, 1 / f), f))
+)
 
 
 class Cause(NamedTuple):
@@ -36,7 +39,7 @@ class Cause(NamedTuple):
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)  #: linework minus points, right, up, depth
 
 
-def by_axes_or_unit(points: Coordinates, factors: tuple[float, ...], holds: Holds) -> Cause | None:
+def by_axes_or_unit(points: Coordinates, factors: tuple[float, ...], holds: HoldsEnlarged) -> Cause | None:
     """Axes of the points exchanged, or another unit, or both.
 
     Parameters
@@ -46,13 +49,13 @@ def by_axes_or_unit(points: Coordinates, factors: tuple[float, ...], holds: Hold
     factors : tuple of float
         Factors that a wrong unit can be.
     holds : callable
-        Asks for points in the axes of the file.
+        Asks for points in the axes of the file, and by how much they were multiplied: so are their errors.
     """
     if not _enough(points):
         return None
     for factor in (1.0, *factors):
         for x, y, z in permutations(range(3)):
-            if (factor != 1.0 or (x, y, z) != (0, 1, 2)) and holds(points[:, (x, y, z)] * factor).all():
+            if (factor != 1.0 or (x, y, z) != (0, 1, 2)) and holds(points[:, (x, y, z)] * factor, factor).all():
                 return Cause("axes" if factor == 1.0 else "unit", axes=(x, y, z), factor=factor)
     return None
 

@@ -5,6 +5,9 @@ from functools import cache
 
 import numpy as np
 
+from foparq.columns import Coordinates, Index
+from foparq.mesh.bvh import hierarchy
+from foparq.mesh.distance import nearest
 from foparq.mesh.intersections import intersections
 
 #: two squares that cross, one that lies on the first, one that touches it: every way to meet
@@ -19,7 +22,18 @@ _SQUARES = (
 @cache
 def warm() -> None:
     """Compile, or load, the kernels of intersections; once in a process. Children that are forked have them too."""
+    points, corners = _triangles()
+    intersections(points, corners, keep=len(corners) ** 2)
+
+
+@cache
+def warm_nearest() -> None:
+    """The same for the kernels of distances."""
+    points, corners = _triangles()
+    nearest(points, hierarchy(points, corners), points[:3])
+
+
+def _triangles() -> tuple[Coordinates, Index]:
     points = np.array(_SQUARES, dtype=float).reshape(-1, 3)
     first = np.arange(0, len(points), 4)[:, np.newaxis]
-    corners = np.concatenate([first + np.array([0, 1, 2]), first + np.array([0, 2, 3])])
-    intersections(points, corners, keep=len(corners) ** 2)
+    return points, np.concatenate([first + np.array([0, 1, 2]), first + np.array([0, 2, 3])])

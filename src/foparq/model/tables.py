@@ -48,6 +48,7 @@ class Distances:
     end: Texts = field(default_factory=_nameless)  #: (n,) of the second
     places: Reals = field(default_factory=_placeless)  #: (n, 2, 3) delivered coordinates of both, metres; NaN if none
     printed: float = 0.0  #: half the last printed digit of delivered alone, metres
+    places_printed: Reals = field(default_factory=_exact)  #: (3,) half the last printed digit of ``places``, metres
 
     def __post_init__(self) -> None:
         n = len(self.id)
@@ -76,6 +77,8 @@ class FeatureList:
     #: (n, 3) X, Y, Z of a place on the feature, in axes of the drawing, metres; NaN where not given. Left out: none
     place: Reals = field(default_factory=lambda: np.empty((0, 3)))
     tol: Reals = field(default_factory=lambda: np.empty(0))  #: (n,) how far from it the feature may lie, metres; or NaN
+    #: how far from a place of the list what was asked for may be, metres; ``None`` if nobody states it
+    spacing: float | None = None
 
     def __post_init__(self) -> None:
         n = len(self.id)

@@ -93,10 +93,16 @@ class MeshSection(Strict):
 
 
 class TableSection(Strict):
-    """``[features]``: one table."""
+    """One table."""
 
     path: str
     sheet: str | None = None  #: of a workbook; the first if left out
+
+
+class FeaturesSection(TableSection):
+    """``[features]``: the list of specified features."""
+
+    spacing: LengthOnObject | None = None  #: on a mesh nothing is farther from every place of the list
 
 
 class SurveySection(TableSection):
@@ -158,8 +164,8 @@ class ContractSection(Strict):
 class ConfirmedSection(Strict):
     """``[[confirmed]]``: a statement that witnesses contradict, confirmed by a person."""
 
-    what: Literal["unit", "plane", "scale", "checkpoints", "distances", "facade"]
-    value: Said  #: what is confirmed; of ``checkpoints`` and ``distances``: ``"not drawn"``
+    what: Literal["unit", "plane", "scale", "checkpoints", "distances", "facade", "commission"]
+    value: Said
     by: Said  #: who answers for it
     reason: Said
     path: str = ""  #: file it speaks of; left out: every file that states the value
@@ -184,7 +190,7 @@ class Manifest(Strict):
     delivery: DeliverySection = DeliverySection()
     drawing: tuple[DrawingSection, ...] = ()
     mesh: tuple[MeshSection, ...] = ()
-    features: TableSection | None = None
+    features: FeaturesSection | None = None
     checkpoints: SurveySection | None = None
     distances: SurveySection | None = None
     confirmed: tuple[ConfirmedSection, ...] = ()

@@ -117,6 +117,8 @@ def read_delivery(
     checkpoints = _table(intake, root, "checkpoints", manifest.checkpoints, read_checkpoints, extents)
     distances = _table(intake, root, "distances", manifest.distances, read_distances, extents)
     features = _table(intake, root, "features", manifest.features, read_feature_list)
+    if features is not None and manifest.features is not None and manifest.features.spacing is not None:
+        features = replace(features, spacing=manifest.features.spacing.si())
     take_unnamed(intake, root)
     delivery = Delivery(
         title=manifest.delivery.title or root.resolve().name, sources=tuple(intake.sources),

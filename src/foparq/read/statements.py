@@ -8,7 +8,7 @@ from foparq.model.statements import Confirmation
 from foparq.names import folded
 from foparq.profile.manifest import ConfirmedSection, DrawingSection, Manifest, MeshSection
 
-_NOT_DRAWN = "not drawn"
+_ONLY = {"checkpoints": ["not drawn"], "distances": ["not drawn"], "commission": ["none"]}
 _BY_AXES = "given"  #: a plane of an origin and two axes
 
 
@@ -50,8 +50,8 @@ def _value(section: DrawingSection | MeshSection, what: str) -> str:
 
 def _stated(one: ConfirmedSection, manifest: Manifest) -> list[str] | None:
     """Values that could be confirmed; ``None`` if any may be: a scale may be the reviewer's."""
-    if one.what in {"checkpoints", "distances"}:
-        return [_NOT_DRAWN]
+    if one.what in _ONLY:
+        return _ONLY[one.what]
     if one.what in {"unit", "plane", "facade"}:
         every: list[DrawingSection | MeshSection] = [*manifest.drawing, *manifest.mesh]
         named = [section for section in every if _speaks_of(one, section)]

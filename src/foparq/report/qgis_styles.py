@@ -132,7 +132,10 @@ _CODES: dict[str, tuple[Sequence[str], str]] = {
     "unit": (("m", "m2", "1", "items", "rad"), "report.gpkg.unit.{}"),
     "code": (tuple(Reading), "report.balance.code.{}"),
     "role": (tuple(Role), "report.gpkg.role.{}"),
-    "lies": (("vertex", "linework", "named", "taken-named", "taken-vertex", "absent", "untold"), "report.lies.{}"),
+    "lies": (
+        ("vertex", "linework", "surface", "named", "taken-named", "taken-vertex", "taken-surface", "absent", "untold"),
+        "report.lies.{}",
+    ),
     "plane": (("xy", "xz", "yz", "fit", "given", "assumed"), "report.gpkg.plane.{}"),
 }
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from foparq.check.drawn.ground import Ground
+from foparq.check.drawn.ground import DrawnGround
 from foparq.columns import Coordinates, Reals
 from foparq.findings.ties import Alike
 from foparq.names import folded
@@ -19,12 +19,12 @@ _SOME = 200  #: vertices that are looked at first
 _TRIED = 60  #: places of the other drawing that are looked at
 
 
-def alike_facades(grounds: Sequence[Ground], *, within: float) -> tuple[Alike, ...]:
+def alike_facades(grounds: Sequence[DrawnGround], *, within: float) -> tuple[Alike, ...]:
     """Pairs of drawings with different names of facades whose linework is the same, moved or mirrored or not.
 
     Parameters
     ----------
-    grounds : sequence of Ground
+    grounds : sequence of DrawnGround
     within : float, metres
         Vertices not farther apart are the same.
 
@@ -51,7 +51,7 @@ def alike_facades(grounds: Sequence[Ground], *, within: float) -> tuple[Alike, .
     return tuple(found)
 
 
-def _same(one: Ground, other: Ground, within: float, *, mirrored: bool) -> bool:
+def _same(one: DrawnGround, other: DrawnGround, within: float, *, mirrored: bool) -> bool:
     from scipy.spatial import cKDTree  # noqa: PLC0415 - slow to load; one drawing needs none
 
     flip = np.array([-1.0 if mirrored else 1.0, 1.0])
@@ -85,7 +85,7 @@ def _shifts(here: Reals, there: Reals, within: float) -> Iterator[Reals]:
             yield box[:2] - there[row, :2]
 
 
-def _boxes(ground: Ground, flip: Reals) -> Reals:
+def _boxes(ground: DrawnGround, flip: Reals) -> Reals:
     """(n, 4) lower left corner and size of the lines on the sheet, the largest first."""
     bounds = shapely.bounds(ground.work.lines)
     bounds = bounds[np.isfinite(bounds).all(axis=1)]
@@ -94,7 +94,7 @@ def _boxes(ground: Ground, flip: Reals) -> Reals:
     return boxes[np.argsort(-np.hypot(boxes[:, 2], boxes[:, 3]), kind="stable")]
 
 
-def _vertices(ground: Ground, within: float) -> Coordinates:
+def _vertices(ground: DrawnGround, within: float) -> Coordinates:
     """(v, 2) places of the sheet where vertices lie, each about once."""
     corners = ground.corners()[:, :2]
     _, first = np.unique(np.round(corners / within), axis=0, return_index=True)

@@ -4,15 +4,18 @@
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 import shapely
 
+from foparq.check.drawn.causes import beside_corners, cause_on
 from foparq.check.drawn.columns import Columns
-from foparq.columns import Coordinates, Flags, Geometries, Reals, Texts
+from foparq.check.drawn.made import only_for_points
+from foparq.check.tables.ground import Ground, Nearness
+from foparq.columns import Coordinates, Flags, Geometries, Index, Reals, Texts
 from foparq.geom.clusters import clusters
 from foparq.geom.extent import boxes_of, main_box
+from foparq.match.causes import Cause
 from foparq.match.linework import Footing, Linework, footing, stands_in_space
 from foparq.model.drawing import Drawing
 from foparq.model.inputs import Lines
@@ -20,19 +23,11 @@ from foparq.model.items import Role
 from foparq.names import folded
 
 _BESIDE = 0.5  #: metres between a point and the lettering that names it
-
-
-class Nearness(NamedTuple):
-    """Lengths of the profile, metres."""
-
-    tie: float  #: a point not farther from linework lies on it
-    apart: float  #: points not farther apart stand for one place
-    search: float  #: around a surveyed place, for its only vertex
-    visible: float  #: what is shorter cannot be measured in the drawing
+_ONE_VERTEX = 0.01  #: share of the radius of search in which ends of lines are one corner
 
 
 @dataclass(frozen=True, slots=True)
-class Ground:
+class DrawnGround(Ground):
     """Linework of one drawing; sheet coordinates, metres."""
 
     drawing: Drawing
@@ -45,6 +40,16 @@ class Ground:
     named: Mapping[str, Sequence[int]]  #: rows of its labels by folded name
 
     @property
+    def path(self) -> str:
+        """Of the drawing."""
+        return self.drawing.path
+
+    @property
+    def facade(self) -> str:
+        """That the drawing shows."""
+        return self.drawing.facade
+
+    @property
     def metres(self) -> float:
         """Metres in one drawing unit."""
         return self.drawing.unit.metres or 1.0
@@ -53,6 +58,16 @@ class Ground:
     def depth_axis(self) -> int:
         """Axis of the file that runs along the depth."""
         return int(np.argmax(np.abs(self.drawing.plane.frame[2])))
+
+    @property
+    def flat(self) -> int:
+        """Axis of the depth, if the drawing has none."""
+        return -1 if self.deep else self.depth_axis
+
+    @property
+    def axes(self) -> int:
+        """Axes of the sheet in which places are compared."""
+        return 3 if self.deep else 2
 
     def on_sheet(self, places: Coordinates) -> Coordinates:
         """Places (n, 3) in metres, in the axes of the file, brought to the sheet.
@@ -88,13 +103,47 @@ class Ground:
         """How far a place may lie from where it is told to, because of the digits that are not printed, metres."""
         return float(np.linalg.norm(self.rounding(printed)))
 
+    def called(self, rows: Index) -> tuple[Texts, Texts]:
+        """Items and layers of lines."""
+        return self.item[rows], self.layer[rows]
+
+    def near(self, surveyed: Coordinates, radius: float) -> Coordinates:
+        """The only vertices near surveyed places; NaN where there is none, or several."""
+        taken = np.full(surveyed.shape, np.nan)
+        if not len(surveyed):
+            return taken
+        from scipy.spatial import cKDTree  # noqa: PLC0415 - slow to load; delivered coordinates need none
+
+        corners = np.unique(self.corners(), axis=0)
+        around = cKDTree(corners[:, : self.axes]).query_ball_point(self.on_sheet(surveyed)[:, : self.axes], radius)
+        for row, rows in enumerate(around):
+            # Ends of several lines at one corner are one vertex.
+            if rows and np.ptp(corners[rows][:, : self.axes], axis=0).max() <= radius * _ONE_VERTEX:
+                taken[row] = self.in_file(corners[rows[:1]])[0]
+        return taken
+
+    def made(self, places: Coordinates, within: Reals, near: Nearness) -> Flags:
+        """(n,) places on nothing but linework that shows nothing else."""
+        return only_for_points(self, places, within, near)
+
+    def cause(self, places: Coordinates, bearing: Coordinates, within: float, *, corners: bool) -> Cause | None:
+        """One cause that puts all places on the linework, or at its corners."""
+        search = beside_corners if corners else cause_on
+        return search(self, places, bearing, within)
+
+    def apart(self, places: Coordinates, bearing: Coordinates, printed: Reals) -> tuple[Reals, Reals]:
+        """Distances of places from those that bear their ids; and the same less what was rounded."""
+        step = np.abs(self.on_sheet(places) - self.on_sheet(bearing))[:, : self.axes]
+        less = np.maximum(step - self.rounding(printed)[: self.axes], 0.0)
+        gap, net = np.linalg.norm(step, axis=1), np.linalg.norm(less, axis=1)
+        return np.where(np.isfinite(gap), gap, np.inf), np.where(np.isfinite(net), net, np.inf)
+
     def marked(self, places: Coordinates, within: Reals) -> Flags:
         """(n,) whether an insert or point that bears a name is at a place (n, 3), metres, in the axes of the file."""
         marks = self._marks() * self.metres
         if not len(marks):
             return np.zeros(len(places), dtype=bool)
-        axes = 3 if self.deep else 2
-        apart = self.on_sheet(places)[:, None, :axes] - self.on_sheet(marks)[None, :, :axes]
+        apart = self.on_sheet(places)[:, None, : self.axes] - self.on_sheet(marks)[None, :, : self.axes]
         at: Flags = np.any(np.linalg.norm(apart, axis=2) <= within[:, None], axis=1)
         return at
 
@@ -164,7 +213,7 @@ class Ground:
         return float(np.linalg.norm(high - low))
 
 
-def ground_of(drawing: Drawing, near: Nearness) -> Ground | None:
+def ground_of(drawing: Drawing, near: Nearness) -> DrawnGround | None:
     """What places are held against; ``None`` if nobody knows the unit of the drawing, or nothing is drawn.
 
     Linework on layers that are not plotted, and what cannot be seen with all that touches it, show nothing. A point
@@ -188,7 +237,7 @@ def ground_of(drawing: Drawing, near: Nearness) -> Ground | None:
     if not len(geometry):
         return None
     work = Linework.of(lines.geometry[seen])
-    return Ground(
+    return DrawnGround(
         drawing=drawing, work=work, every=work if seen.all() else Linework.of(lines.geometry),
         item=lines.item[seen], layer=lines.layer[seen],
         deep=stands_in_space(geometry),

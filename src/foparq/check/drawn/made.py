@@ -5,13 +5,17 @@ A table of another building would lie on it, and it says nothing of the building
 """
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
 
-from foparq.check.drawn.ground import Ground, Nearness
+from foparq.check.tables.ground import Nearness
 from foparq.columns import Coordinates, Flags, Geometries, Index, Reals, Texts
 from foparq.model.layers import matching
+
+if TYPE_CHECKING:
+    from foparq.check.drawn.ground import DrawnGround
 
 _CORNERS = 2  #: corners of such a line for each point on it: a stroke has both ends, a line through points one each
 _SMALL = 50  #: a mark is not larger than so many times what can be seen: 10 mm on the sheet
@@ -20,7 +24,7 @@ _FEWEST = 3  #: marks of a layer
 _CHANCE = 2  #: places at which a mark may touch other linework
 
 
-def only_for_points(ground: Ground, places: Coordinates, within: Reals, near: Nearness) -> Flags:
+def only_for_points(ground: "DrawnGround", places: Coordinates, within: Reals, near: Nearness) -> Flags:
     """Points that lie on nothing but linework which shows nothing else.
 
     A line shows nothing but points if its layer has no class of features and
@@ -76,7 +80,7 @@ def only_for_points(ground: Ground, places: Coordinates, within: Reals, near: Ne
 class _Touching:
     """Where linework touches that of a drawing, in the plane."""
 
-    def __init__(self, ground: Ground, tie: float, spots: Geometries, within: float) -> None:
+    def __init__(self, ground: "DrawnGround", tie: float, spots: Geometries, within: float) -> None:
         self.lines, self.tree, self.tie = shapely.force_2d(ground.work.lines), ground.work.tree, tie
         self.spots, self.within = shapely.STRtree(spots), within
 
@@ -102,7 +106,7 @@ class _Touching:
         return cells
 
 
-def _marks(ground: Ground, bearing: Index, near: Nearness) -> Flags:
+def _marks(ground: "DrawnGround", bearing: Index, near: Nearness) -> Flags:
     """(m,) small lines of layers whose small things mostly bear points."""
     bounds = shapely.bounds(ground.work.lines)
     small = np.hypot(bounds[:, 2] - bounds[:, 0], bounds[:, 3] - bounds[:, 1]) <= _SMALL * near.visible

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Commission: drawn features that the specification does not ask for."""
 
+from collections.abc import Sequence
+
 from foparq.evaluate.balance import Balance, Incomparable, balances
 from foparq.evaluate.comparable import (
     doubtful,
@@ -10,8 +12,10 @@ from foparq.evaluate.comparable import (
     unmapped,
 )
 from foparq.evaluate.decisions import decided, elsewhere, interval
-from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
+from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen, unseen_meshes
 from foparq.evaluate.kinds import evaluates
+from foparq.evaluate.of_meshes import of_meshes
+from foparq.evaluate.on_meshes import confirmed_none, surplus_on_meshes, unlisted_doubts, unlisted_told
 from foparq.evaluate.quality import Element, ElementStatus, because, some
 from foparq.profile.elements import CommissionSpec
 
@@ -38,7 +42,7 @@ def commission(spec: CommissionSpec, evidence: Evidence) -> tuple[Element, ...]:
     -------
     tuple of one Element
     """
-    scope = ", ".join(filter(None, [evidence.files("features"), evidence.files("drawing")]))
+    scope = ", ".join(filter(None, map(evidence.files, ("features", "mesh" if evidence.meshes_only else "drawing"))))
     limit, no_limit = limit_of(spec, evidence, "1", spec.id)
     features, counts = evidence.delivery.features, evidence.counts
     nothing = no_balance(evidence, spec.id)
@@ -47,7 +51,7 @@ def commission(spec: CommissionSpec, evidence: Evidence) -> tuple[Element, ...]:
         return (element(spec, _MEASURE, judgement, scope=scope, limit=limit, comparison="<=", method="directExternal"),)
     every = balances(features, counts, evidence.delivery.decisions)
     known = [row for row in every if row.gap is Incomparable.NONE]
-    surplus, required = sum(row.surplus for row in known), sum(row.required for row in known)
+    surplus, required = _surplus(known, evidence), sum(row.required for row in known)
     delivered = sum(row.delivered for row in known)
     if no_limit is not None or limit is None:
         judgement = judged(ElementStatus.UNDECIDED, *filter(None, [no_limit]))
@@ -57,15 +61,16 @@ def commission(spec: CommissionSpec, evidence: Evidence) -> tuple[Element, ...]:
         judgement = _judge(spec, evidence, every, limit)
     value = surplus / required if required else None if surplus else 0.0
     parameters = [("surplus", float(surplus), "items"), ("delivered", float(delivered), "items")]
-    if (most := sum(row.surplus_most for row in known)) > surplus:
+    if (most := sum(row.surplus_most for row in known)) > surplus and not counts.on_meshes:
         parameters.append(("surplus-most", float(most), "items"))
         if required:
             parameters.append(("rate-most", most / required, "1"))
     if delivered:
         parameters.append(("share-of-delivered", surplus / delivered, "1"))
+    why = of_meshes(judgement.why, evidence)
     remarks = (*decided(every, spec.id), *unmapped(counts, spec.id))
     made = element(
-        spec, _MEASURE, judged(judgement.status, *judgement.why, *remarks), scope=scope, n=required,
+        spec, _MEASURE, judged(judgement.status, *why, *remarks), scope=scope, n=required,
         value=value if known else None, limit=limit, comparison="<=", parameters=parameters, method="directExternal",
         details=tuple((row.label, float(row.surplus), float(row.required + row.optional)) for row in known),
     )  # fmt: skip
@@ -75,7 +80,7 @@ def commission(spec: CommissionSpec, evidence: Evidence) -> tuple[Element, ...]:
 def _judge(spec: CommissionSpec, evidence: Evidence, every: tuple[Balance, ...], limit: float) -> Judgement:
     name = spec.id
     known = [row for row in every if row.gap is Incomparable.NONE]
-    surplus, required = sum(row.surplus for row in known), sum(row.required for row in known)
+    surplus, required = _surplus(known, evidence), sum(row.required for row in known)
     gaps = gap_reasons(every, name, (Incomparable.UNLISTED, Incomparable.UNBOUND, Incomparable.FACADE))
     if evidence.counts is not None:
         gaps = (*gaps, *elsewhere(evidence.counts, name))
@@ -83,6 +88,9 @@ def _judge(spec: CommissionSpec, evidence: Evidence, every: tuple[Balance, ...],
     fields: dict[str, object] = {
         "element": name, "surplus": surplus, "required": required, "limit": (limit, "1"),
     }  # fmt: skip
+    told = unlisted_told(evidence.counts, name) if evidence.counts is not None else ()
+    if _exceeds(surplus, required, limit) and evidence.counts is not None and evidence.counts.on_meshes:
+        return judged(ElementStatus.FAIL, because("commission.fail-mesh", **fields), *told, *gaps)
     if _exceeds(surplus, required, limit):
         return judged(
             ElementStatus.FAIL, because("commission.fail", **fields, classes=some([row.label for row in worst])), *gaps
@@ -91,10 +99,18 @@ def _judge(spec: CommissionSpec, evidence: Evidence, every: tuple[Balance, ...],
     if _exceeds(most := sum(row.surplus_most for row in known), required, limit):
         unclear = [row for row in known if row.surplus_most > row.surplus]
         several.append(interval("commission.interval", name, evidence, unclear, {"most": most, **fields}))
-    doubts = (*several, *gaps, *unseen(evidence, name), *uncounted(evidence, name))
+    lost = unseen_meshes(evidence, name) if evidence.meshes_only else ()
+    doubts = (*several, *gaps, *unseen(evidence, name), *lost, *unlisted_doubts(evidence, name))
+    doubts = (*doubts, *uncounted(evidence, name))
     if doubts:
         return judged(ElementStatus.UNDECIDED, *doubts)
-    return judged(ElementStatus.PASS, because("commission.pass", **fields))
+    passed = "commission.pass-mesh" if evidence.counts and evidence.counts.on_meshes else "commission.pass"
+    return judged(ElementStatus.PASS, because(passed, **fields), *told, *confirmed_none(evidence, name))
+
+
+def _surplus(known: Sequence[Balance], evidence: Evidence) -> int:
+    on_meshes = evidence.counts if evidence.counts is not None and evidence.counts.on_meshes else None
+    return surplus_on_meshes(on_meshes) if on_meshes else sum(row.surplus for row in known)
 
 
 def _exceeds(surplus: int, required: int, limit: float) -> bool:

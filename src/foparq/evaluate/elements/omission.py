@@ -12,8 +12,10 @@ from foparq.evaluate.comparable import (
     unmapped,
 )
 from foparq.evaluate.decisions import decided, elsewhere, interval, placed
-from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen
+from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen, unseen_meshes
 from foparq.evaluate.kinds import evaluates
+from foparq.evaluate.of_meshes import of_meshes
+from foparq.evaluate.on_meshes import openings
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because, some
 from foparq.profile.elements import OmissionSpec
 
@@ -40,7 +42,7 @@ def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
     -------
     tuple of one Element
     """
-    scope = ", ".join(filter(None, [evidence.files("features"), evidence.files("drawing")]))
+    scope = ", ".join(filter(None, map(evidence.files, ("features", "mesh" if evidence.meshes_only else "drawing"))))
     limit, no_limit = limit_of(spec, evidence, "1", spec.id)
     features, counts = evidence.delivery.features, evidence.counts
     nothing = no_balance(evidence, spec.id)
@@ -71,9 +73,15 @@ def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
         parameters += [("missing-least", float(least), "items"), ("rate-least", least / required, "1")]
     if required:
         parameters.append(("net-rate", net / required, "1"))
-    remarks = (*placed(known, spec.id), *decided(every, spec.id), *unmapped(counts, spec.id))
+    remarks = (
+        *placed(known, spec.id),
+        *openings(evidence, spec.id),
+        *decided(every, spec.id),
+        *unmapped(counts, spec.id),
+    )
+    why = of_meshes(judgement.why, evidence)
     made = element(
-        spec, _MEASURE, judged(judgement.status, *judgement.why, *remarks), scope=scope, n=required,
+        spec, _MEASURE, judged(judgement.status, *why, *remarks), scope=scope, n=required,
         value=missing / required if required else None, limit=limit, comparison="<=", parameters=parameters,
         method="directExternal",
         details=tuple((row.label, float(row.missing), float(row.required)) for row in known if row.required),
@@ -98,7 +106,8 @@ def _judge(spec: OmissionSpec, evidence: Evidence, every: tuple[Balance, ...], l
         "limit": (limit, "1"),
     }  # fmt: skip
     remarks = _accepted(known, name, required, missing)
-    hidden = (*unseen(evidence, name), *uncounted(evidence, name))
+    lost = unseen_meshes(evidence, name) if evidence.meshes_only else ()
+    hidden = (*unseen(evidence, name), *lost, *uncounted(evidence, name))
     if missing / required > limit and hidden:
         return judged(ElementStatus.UNDECIDED, because("omission.hidden", **fields), *hidden, *gaps, *remarks)
     least = sum(row.missing_least for row in known if not row.hidden)

@@ -129,7 +129,15 @@ def _judge(spec: SurfaceRateSpec, evidence: Evidence, meshes: Sequence[_Mesh], f
     stated = _stated(evidence, meshes, name)
     if doubts:
         return judged(ElementStatus.UNDECIDED, *doubts, *told, *stated)
-    return judged(ElementStatus.PASS, *told, *stated, because("surface.not-compared", element=name))
+    return judged(ElementStatus.PASS, *told, *stated, *_loose(evidence, name))
+
+
+def _loose(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Remark on meshes of whose size and place no table says anything."""
+    points = evidence.ties.points if evidence.ties else None
+    held = set(points.drawing.tolist()) if points is not None else set()
+    loose = [mesh.path for mesh in evidence.delivery.meshes if mesh.path not in held]
+    return (because("surface.not-compared", element=name, files=loose),) if loose else ()
 
 
 def _told(name: str, mesh: _Mesh, limit: float) -> Reason:

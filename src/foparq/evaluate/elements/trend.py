@@ -66,8 +66,8 @@ def _axis(spec: TrendSpec, points: Checkpoints, evidence: Evidence, axis: int) -
     good, gross = too_small(known, points.survey_sd, resolution, id_)
     if good and gross and judgement.status is ElementStatus.FAIL:  # what was copied has the trend of its rounding
         judgement = judged(ElementStatus.UNDECIDED, good)
-    if tied.doubts:
-        judgement = judged(ElementStatus.UNDECIDED, *tied.doubts)
+    if tied.doubts or tied.one_way:
+        judgement = judged(ElementStatus.UNDECIDED, *(tied.doubts or tied.one_way))
     remarks, extra = _normality(id_, known, spec.confidence)
     alarm = 1.0 - spec.confidence ** len(AXES)
     if judgement.status is ElementStatus.FAIL and not math.isinf(test.t):

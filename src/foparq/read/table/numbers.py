@@ -85,7 +85,7 @@ def lengths_of(sheet: Sheet, column: str, unit: float, *, required: bool) -> tup
         number = number_of(cell) if isinstance(cell, str) else _by_value(cell)
         if number is None or abs(number.decimals) > _MOST_DIGITS:
             raise sheet.fault("table.not-a-number", row, column, example="1234.5")
-        values[row] = float(Fraction(number.value) * factor)
+        values[row] = float(number.value if factor == 1 else Fraction(number.value) * factor)
         decimals.append(number.decimals)
     if not decimals:
         return values, 0.0

@@ -12,7 +12,7 @@ from foparq.errors import UnreadableError
 from foparq.model.tables import Checkpoints, Distances, FeatureList
 from foparq.names import nearest
 from foparq.profile.manifest import SurveySection, TableSection
-from foparq.read.table.cells import Odd
+from foparq.read.table.cells import Odd, shown
 from foparq.read.table.csv_text import is_workbook, read_text
 from foparq.read.table.extent import Extent, lengths_are_decimal, points_are_decimal
 from foparq.read.table.names import (
@@ -133,6 +133,7 @@ def read_distances(path: Path, section: SurveySection, extents: Sequence[Extent]
         resolution=halves["measured"] + halves["delivered"],
         survey_sd=section.survey_sd.si() if section.survey_sd else None, start=_column(sheet.texts("from")),
         end=_column(sheet.texts("to")), places=np.stack([values[one] for one in _ENDS], axis=1).reshape(-1, 2, 3),
+        places_printed=np.array([max(halves[f"{axis}1"], halves[f"{axis}2"]) for axis in "xyz"]),
         printed=halves["delivered"], skipped=sheet.skipped,
     )  # fmt: skip
 
@@ -250,10 +251,9 @@ def _doubtful(values: Mapping[str, Reals], doubtful: Mapping[str, Flags], column
 
 def _counts(sheet: Sheet) -> Index:
     counts = np.ones(len(sheet.rows), dtype=np.intp)
-    for row, text in enumerate(sheet.texts("count")):
-        if not text:
+    for row, cell in enumerate(sheet.cells("count")):
+        if not (text := shown(cell)):
             continue
-        cell = sheet.cells("count")[row]
         number = None if isinstance(cell, Odd) or (isinstance(cell, str) and is_grouped(cell)) else number_of(text)
         if number is None or number.value != number.value.to_integral_value() or not 0 <= number.value < 10**9:
             raise sheet.fault("table.not-a-count", row, "count", example="3")

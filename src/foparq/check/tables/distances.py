@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foparq.check.drawn.ground import Ground
+from foparq.check.tables.ground import Ground
 from foparq.columns import Coordinates, Flags, Index, Reals
 from foparq.findings.ties import NOBODY, DistanceTies, Ends, Lies, PointTies
 from foparq.match.linework import NOTHING
@@ -62,7 +62,8 @@ def tie_distances(
         lengths.append(np.where(both, np.sqrt(np.nansum(np.delete(step, ends.flat, axis=1) ** 2, axis=1)), np.nan))
     untold = np.isnan(distances.delivered)
     delivered = np.where(untold & both, between, distances.delivered)
-    printed = distances.printed + (2 * float(np.linalg.norm(points.printed)) if points is not None else 0.0)
+    of_ends = (distances.places_printed, *((points.printed,) if points is not None else ()))
+    printed = distances.printed + 2 * max(float(np.linalg.norm(one)) for one in of_ends)
     off = np.min([np.abs(delivered - length) for length in lengths], axis=0)
     length = np.where(untold, distances.measured, distances.delivered)
     longest = max(ground.longest() for ground in grounds)
@@ -90,10 +91,10 @@ def _ends(
     at = np.full((n, 2), NOBODY, dtype=np.intp)
     for end in range(2):
         rows = np.flatnonzero(given[:, end])
-        within = np.full(len(rows), tie + distances.printed * np.sqrt(3))
+        within, hidden = np.full(len(rows), tie), float(np.linalg.norm(distances.places_printed))
         for ground in grounds:
-            known[rows, end] |= ground.footing(places[rows, end], within).line != NOTHING
-            known[rows, end] |= ground.marked(places[rows, end], within)
+            known[rows, end] |= ground.footing(places[rows, end], within, distances.places_printed).line != NOTHING
+            known[rows, end] |= ground.marked(places[rows, end], within + hidden)
     absent = given & ~known
     if points is not None and ties is not None:
         at = _named_points(distances, points, given)
@@ -106,7 +107,7 @@ def _ends(
             borne = [place for one in grounds if (place := one.bearing(str(names[row]))) is not None]
             if len(borne) == 1:
                 places[row, end], known[row, end] = borne[0], True
-    flat = next((ground.depth_axis for ground in grounds if not ground.deep), -1)
+    flat = next((ground.flat for ground in grounds if ground.flat >= 0), -1)
     if ties is not None:
         at = np.where(at == NOBODY, _standing_at(places, ties.delivered, flat, tie), at)
     return _Places(places, known, absent, flat, at)

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""What tables and lists say of meshes."""

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Tables of a delivery, held against its parts."""

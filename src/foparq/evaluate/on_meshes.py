@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""What can be said of features that were looked for on meshes."""
+
+import numpy as np
+
+from foparq.evaluate.evidence import Evidence, unseen_meshes
+from foparq.evaluate.quality import Reason, because
+from foparq.findings.counts import FeatureCounts, Listed, Unlisted
+
+NO_COMMISSION = "none"  #: confirmed: nothing is on the mesh that is not on the object
+_MOSTLY = 0.5  #: share of the area of a mesh from which a list says nothing of it
+
+
+def no_mesh(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Why features were looked for on no mesh though meshes were named."""
+    if hidden := unseen_meshes(evidence, name):
+        return hidden
+    unknown = [mesh.path for mesh in evidence.delivery.meshes if mesh.unit.metres is None]
+    return (because("features.unit-unknown-mesh", element=name, files=unknown),) if unknown else ()
+
+
+def elsewhere_on_meshes(counts: FeatureCounts | None, name: str) -> tuple[Reason, ...]:
+    """Doubt that a list speaks of the meshes that were delivered: fewer than half of its places lie on them."""
+    if counts is None or not counts.on_meshes or counts.placements is None or not counts.placements.elsewhere:
+        return ()
+    lies = counts.placements.lies
+    n, total = int(np.count_nonzero(lies == Listed.THERE)), int(np.count_nonzero(lies != Listed.UNPLACED))
+    return (because("features.elsewhere-mesh", element=name, n=n, total=total),)
+
+
+def openings(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Remark on openings of meshes: what should be there is missing, whether the list names it or not."""
+    if evidence.counts is None or not evidence.counts.on_meshes:
+        return ()
+    units = {mesh.path: "m2" if mesh.unit.metres is not None else "u2" for mesh in evidence.delivery.meshes}
+    return tuple(
+        because("omission.openings", element=name, file=one.source, n=one.found, area=(one.total, units[one.source]))
+        for one in evidence.outcomes
+        if one.name == "hole" and one.found and not (one.helper or one.preview)
+    )
+
+
+def surplus_on_meshes(counts: FeatureCounts) -> int:
+    """Pieces of surface of which the list says nothing."""
+    return sum(one.pieces for one in counts.unlisted if not _mostly(one))
+
+
+def unlisted_doubts(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Why nobody knows what is on the meshes beyond the list, and remarks on it."""
+    counts = evidence.counts
+    if counts is None or not counts.on_meshes or evidence.confirmation("commission", NO_COMMISSION) is not None:
+        return ()
+    if not counts.unlisted:
+        return (because("commission.no-spacing", element=name),)
+    why = [because("commission.too-fine", element=name, file=one.path) for one in counts.unlisted if not one.looked]
+    why += [_told("commission.mostly-unlisted", one, name) for one in counts.unlisted if _mostly(one)]
+    return tuple(why)
+
+
+def unlisted_told(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:
+    """The surfaces of which the list says nothing, with a place on the largest."""
+    return tuple(_told("commission.unlisted", one, name) for one in counts.unlisted if one.pieces and not _mostly(one))
+
+
+def confirmed_none(evidence: Evidence, name: str) -> tuple[Reason, ...]:
+    """Who answers for it that nothing is on the meshes that is not on the object."""
+    counts, one = evidence.counts, evidence.confirmation("commission", NO_COMMISSION)
+    if counts is None or not counts.on_meshes or one is None or counts.unlisted:
+        return ()
+    return (because("commission.confirmed", element=name, by=one.by, reason=one.reason),)
+
+
+def _mostly(one: Unlisted) -> bool:
+    return one.area > _MOSTLY * one.whole
+
+
+def _told(message: str, one: Unlisted, name: str) -> Reason:
+    x, y, z = one.where or (np.nan, np.nan, np.nan)
+    return because(
+        message, element=name, file=one.path, n=one.pieces, area=(one.area, "m2"), share=(one.area / one.whole, "1"),
+        x=(x, "m"), y=(y, "m"), z=(z, "m"),
+    )  # fmt: skip
