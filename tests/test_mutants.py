@@ -99,3 +99,9 @@ def test_calls_are_still_told_after_a_test_whose_recursion_ran_out_of_depth(tmp_
     given = {"PYTHONPATH": str(ROOT / "tests" / "tools" / "trace"), "FOPARQ_REACH": str(told)}
     subprocess.run([sys.executable, "-c", DEEP], env={**os.environ, **given}, check=True)
     assert "units.py\x1fparse_scale\x1f" in told.read_text()
+
+
+def test_every_mutant_by_hand_changes_the_source_as_it_is() -> None:
+    made, stale = by_hand(ROOT / "tests" / "tools" / "mutants.toml", ROOT / "src" / "foparq")
+    assert stale == []
+    assert made
