@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
 """What a table of checkpoints says of each of several drawings."""
 
+from collections.abc import Collection
+
 import numpy as np
 
 from foparq.columns import Flags
 from foparq.evaluate.evidence import Evidence
 from foparq.evaluate.quality import Reason, because
-from foparq.findings.ties import PointTies
+from foparq.findings.ties import Alike, PointTies
 from foparq.names import folded
 
 
@@ -46,18 +48,25 @@ def unnamed_remark(ties: PointTies, counted: Flags, name: str) -> tuple[Reason, 
 
 
 def alike_doubts(evidence: Evidence) -> list[Reason]:
-    """Drawings of two facades with the same linework, unless a person confirms one of these facades by name."""
+    """Drawings of two facades with the same linework, and meshes with the same vertices.
+
+    Not those of which a person confirms one facade by name.
+    """
     if evidence.ties is None:
         return []
     sure = {folded(one.value) for one in evidence.delivery.confirmed if one.what == "facade"}
+    meshes = {mesh.path for mesh in evidence.delivery.meshes}
     return [
-        because(
-            "verdict.alike-mirrored" if one.mirrored else "verdict.alike", files=[one.path, one.other],
-            facade=one.facade, other=one.other_facade,
-        )
+        because(_alike(one, meshes), files=[one.path, one.other], facade=one.facade, other=one.other_facade)
         for one in evidence.ties.alike
         if not {folded(one.facade), folded(one.other_facade)} & sure
-    ]  # fmt: skip
+    ]
+
+
+def _alike(one: Alike, meshes: Collection[str]) -> str:
+    if one.path in meshes:
+        return "verdict.alike-meshes" if one.facade and one.other_facade else "verdict.one-mesh"
+    return "verdict.alike-mirrored" if one.mirrored else "verdict.alike"
 
 
 def _named(ties: PointTies) -> list[str]:

@@ -35,7 +35,7 @@ def _unasked() -> Flags:
 
 
 class Alike(NamedTuple):
-    """Two drawings that are told apart by their facades, and whose linework is the same."""
+    """Two drawings of two facades whose linework is the same, or two meshes with the same vertices."""
 
     path: str
     facade: str
@@ -111,12 +111,22 @@ class DistanceTies:
     alike: Index = field(default_factory=_unnumbered)  #: (n,) lengths that cannot be seen to differ; empty: untold
 
 
+class Beside(NamedTuple):
+    """A mesh beside drawings, and the surveyed places of the checkpoints."""
+
+    path: str
+    facade: str
+    ids: tuple[str, ...]  #: of points near its surface, the farthest first
+    distance: tuple[float, ...]  #: of these to the surface, metres
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ties:
     """What of the tables belongs to the drawings."""
 
     points: PointTies | None = None
     distances: DistanceTies | None = None
-    alike: tuple[Alike, ...] = ()  #: drawings of two facades with the same linework
+    alike: tuple[Alike, ...] = ()  #: parts of the delivery that are one
+    beside: tuple[Beside, ...] = ()  #: meshes, where drawings were delivered too
     drawings: int = 0  #: drawings with a known unit, to which anything could be tied
     broken: Because = Because.RAN  #: why the search broke off: ``LIMIT`` or ``CRASHED``

@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Whether the tables of a delivery belong to its drawings and meshes."""
 
+import numpy as np
+
 from foparq.check.drawn.alike import alike_facades
 from foparq.check.drawn.ground import ground_of
+from foparq.check.surfaces.alike import alike_meshes
 from foparq.check.tables.distances import tie_distances
 from foparq.check.tables.ground import Ground, Nearness
 from foparq.check.tables.points import tie_points
-from foparq.findings.ties import Ties
+from foparq.findings.ties import Beside, Ties
+from foparq.match.linework import NOTHING
 from foparq.model.delivery import Delivery
 
 
@@ -25,9 +29,9 @@ def tie_evidence(delivery: Delivery, near: Nearness) -> Ties:
     """
     drawn = [ground for drawing in delivery.drawings if (ground := ground_of(drawing, near)) is not None]
     grounds: list[Ground] = [*drawn] if delivery.drawings else _surfaces(delivery)
+    same = (*alike_facades(drawn, within=near.tie), *alike_meshes(delivery.meshes))
     if not grounds:
-        return Ties()
-    alike = alike_facades(drawn, within=near.tie)
+        return Ties(alike=same)
     points, distances = None, None
     if delivery.checkpoints is not None and len(delivery.checkpoints.id):
         points = tie_points(delivery.checkpoints, grounds, near)
@@ -35,7 +39,22 @@ def tie_evidence(delivery: Delivery, near: Nearness) -> Ties:
         distances = tie_distances(
             delivery.distances, delivery.checkpoints, points, grounds, tie=near.tie, visible=near.visible
         )
-    return Ties(points=points, distances=distances, alike=alike, drawings=len(grounds))
+    return Ties(points=points, distances=distances, alike=same, beside=_beside(delivery, near), drawings=len(grounds))
+
+
+def _beside(delivery: Delivery, near: Nearness) -> tuple[Beside, ...]:
+    """How near surveyed places lie to meshes beside drawings, of which the delivered coordinates speak."""
+    points = delivery.checkpoints
+    if points is None or not len(points.id) or not delivery.drawings:
+        return ()
+    told = []
+    for ground in _surfaces(delivery):
+        foot = ground.footing(points.surveyed, np.full(len(points.id), near.search))
+        rows = np.flatnonzero(foot.line != NOTHING)
+        rows = rows[np.lexsort((rows, -foot.distance[rows]))]
+        ids, distance = points.id[rows].tolist(), foot.distance[rows].tolist()
+        told.append(Beside(ground.path, ground.facade, tuple(map(str, ids)), tuple(distance)))
+    return tuple(told)
 
 
 def _surfaces(delivery: Delivery) -> list[Ground]:
@@ -49,7 +68,7 @@ def _surfaces(delivery: Delivery) -> list[Ground]:
 def prepare(delivery: Delivery) -> None:
     """Make ready, once in this process and outside of any bounds, what meshes need: compiled code."""
     tables = (delivery.checkpoints, delivery.distances, delivery.features)
-    if delivery.meshes and not delivery.drawings and any(table is not None for table in tables):
+    if delivery.meshes and any(table is not None for table in tables):
         from foparq.mesh.warm import warm_nearest  # noqa: PLC0415 - a drawing never loads it
 
         warm_nearest()

@@ -7,6 +7,7 @@ import numpy as np
 
 from foparq.accuracy.moments import moments
 from foparq.columns import Reals
+from foparq.evaluate.beside import with_meshes
 from foparq.evaluate.evidence import Evidence, element, judged, limit_of
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, because
@@ -42,6 +43,7 @@ def _axis(spec: AbsoluteSpec, evidence: Evidence, axis: int) -> Element:
             method="directExternal",
         )  # fmt: skip
     tied = tied_points(points, evidence, id_, fewest=spec.fewest)
+    tied = with_meshes(tied, evidence, id_, limit=limit, fewest=spec.fewest)
     resolution = resolution_of(points, evidence, axis, tied.rows[np.isfinite(tied.differences[:, axis])])
     sample = Sample(
         kind="absolute", id=id_, all=tied.differences[:, axis], resolution=resolution, survey_sd=points.survey_sd

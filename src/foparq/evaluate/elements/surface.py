@@ -17,6 +17,7 @@ from foparq.model.mesh import Mesh
 from foparq.profile.elements import SurfaceRateSpec
 
 _MEASURE = "foparq:faulty-surface"
+_COMPARED = 3  #: surveyed places near a surface, from which on it was compared
 _STATED = "stated-rim"
 _OPENINGS = "hole"  #: the rule whose sizes are areas that are not there
 
@@ -134,8 +135,11 @@ def _judge(spec: SurfaceRateSpec, evidence: Evidence, meshes: Sequence[_Mesh], f
 
 def _loose(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     """Remark on meshes of whose size and place no table says anything."""
-    points = evidence.ties.points if evidence.ties else None
+    points, counts = evidence.ties.points if evidence.ties else None, evidence.counts
+    if counts is not None and counts.on_meshes and counts.placements is not None and not counts.placements.elsewhere:
+        return ()
     held = set(points.drawing.tolist()) if points is not None else set()
+    held |= {mesh.path for mesh in evidence.ties.beside if len(mesh.ids) >= _COMPARED} if evidence.ties else set()
     loose = [mesh.path for mesh in evidence.delivery.meshes if mesh.path not in held]
     return (because("surface.not-compared", element=name, files=loose),) if loose else ()
 
