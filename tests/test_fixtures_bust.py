@@ -336,3 +336,22 @@ def test_audit_rejects_the_draft_for_the_share_of_its_faulty_faces() -> None:
     profile = tomllib.loads((FIXTURES.parent / "rules/profiles/et-doc-foparq-a.toml").read_text("utf-8"))
     bound = next(element for element in profile["element"] if element["id"] == "Q3-mesh")
     assert sorted(bound["rules"]) == known["counted_rules"]
+
+
+def test_audit_gives_the_verdict_of_the_case_study() -> None:
+    """Class B: 200 of 82,650 features are missing, nothing is added, and 18.3 mm of distances are waived."""
+    done = audit(FIXTURES / "deliveries" / "bust-b", language="pt-BR")
+    known, quality = truth("bust-b"), done.record.quality
+    by_id = {element.id: element for element in quality.elements}
+    assert done.log == ()
+    assert quality.verdict == known["verdict"] == "accepted"
+    assert (by_id["Q5"].n, by_id["Q5"].value) == (82_650, pytest.approx(200 / 82_650))
+    assert (by_id["Q4"].status, by_id["Q4"].value) == ("pass", 0.0)
+    assert (by_id["Q3-mesh"].status, by_id["Q3-mesh"].value) == ("pass", 0.0)
+    assert (by_id["Q2"].status, by_id["Q2"].value) == (
+        "not-applicable",
+        pytest.approx(known["distances"]["rmse"], abs=1e-8),
+    )
+    assert {by_id[f"Q1-{axis}"].status for axis in "XYZ"} == {"not-applicable"}
+    listed = {id_ for row in quality.balances for id_ in row.absent}
+    assert listed == set(known["completeness"]["omitted"])
