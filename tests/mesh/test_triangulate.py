@@ -134,12 +134,36 @@ def test_what_cannot_be_cut_is_left() -> None:
     assert found.face.tolist() == [1, 1]
 
 
-def test_polygons_with_too_many_corners_are_left_unless_they_are_fans() -> None:
+def test_polygons_with_too_many_corners_are_left_unless_they_are_convex() -> None:
     plane = np.concatenate([star(12, 5), 5 * np.stack([np.cos(np.arange(9)), np.sin(np.arange(9))], axis=1)])
     circle = (12 + np.argsort(np.arange(9) % (2 * np.pi))).tolist()
     of = mesh(lifted(plane, 0), [list(range(12)), circle])
     assert cut(of, most=8).left.tolist() == [0]
     assert not len(cut(of, most=12).left)
+
+
+def circle(count: int) -> Reals:
+    angle = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    return np.stack([np.cos(angle), np.sin(angle), 0.3 * np.cos(angle)], axis=1)
+
+
+@pytest.mark.parametrize("count", [64, 65, 66, 67, 128, 129, 1000])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_large_convex_polygons_have_no_vertex_where_all_triangles_meet(count: int, seed: int) -> None:
+    of = mesh(circle(count) @ turn(seed).T + np.array(GEOREFERENCED) * (seed - 1), [list(range(count))])
+    found = cut(of, most=10)
+    check(of, found, exact=1e-7)
+    meeting = np.bincount(found.triangles.ravel()).max()
+    assert meeting == count - 2 if count <= 64 else meeting <= 2 * np.log2(count) + 2
+
+
+def test_a_large_polygon_of_stars_is_cut_or_left_by_its_number_of_corners() -> None:
+    """From its first corner it is a fan, and it is not convex."""
+    plane = np.concatenate([[(0.0, -5.0)], star(99, 4) + np.array([0.0, 1.0])])
+    angle = np.arctan2(plane[1:, 1] + 5.0, plane[1:, 0])
+    of = mesh(lifted(np.vstack([plane[:1], plane[1:][np.argsort(angle)]]), 0), [list(range(100))])
+    check(of, cut(of))
+    assert cut(of, most=99).left.tolist() == [0]
 
 
 def test_faces_of_a_box_are_two_triangles_each() -> None:

@@ -13,6 +13,8 @@ from foparq.mesh.vectors import overflowing
 _TRIANGLE = 3
 #: corners from which a fan is tried before a polygon is cut ear by ear; two are enough for quadrangles
 _TRIED = 4
+#: corners beyond which the triangles of a fan are needles that all meet in one vertex, and take long to tell apart
+_SHEAF = 64
 
 
 class Triangulation(NamedTuple):
@@ -33,7 +35,7 @@ def triangulate(points: Coordinates, corners: Index, starts: Index, *, most: int
     corners : (m,) int
     starts : (f + 1,) int
     most : int
-        Polygons with more corners than this are left out, unless they are a fan.
+        Polygons with more corners than this are left out, unless they are convex.
 
     Returns
     -------
@@ -45,7 +47,8 @@ def triangulate(points: Coordinates, corners: Index, starts: Index, *, most: int
     -----
     A polygon is looked at in its own plane, along the axis that its area vector is nearest to. If all triangles of a
     fan from one of its first four corners turn the right way, it is that fan; so are all convex polygons and simple
-    quadrangles. Others lose one ear after another: O(c^2) for c corners. Bridges to openings may be part of the ring.
+    quadrangles. Of more than 64 corners, a convex one loses every second corner until three are left. Others lose one
+    ear after another: O(c^2) for c corners. Bridges to openings may be part of the ring.
     A ring that crosses itself may pass for a fan, or is ``left``.
     """
     size = np.diff(starts)
@@ -58,14 +61,24 @@ def triangulate(points: Coordinates, corners: Index, starts: Index, *, most: int
     some, begin = chosen(corners, starts, rows)
     flat, sound = _flattened(points, some, begin)
     open_rows = np.flatnonzero(sound)
+    left = [rows[~sound]]
     for turn in range(_TRIED):
         ring, ring_starts = _turned(begin, open_rows, turn)
         good = _is_fan(flat[ring], ring_starts)
-        fan, owner = _fans(ring, ring_starts, np.flatnonzero(good))
+        large = np.diff(ring_starts) > _SHEAF
+        fan, owner = _fans(ring, ring_starts, np.flatnonzero(good & ~large))
         parts.append(some[fan])
         owners.append(rows[open_rows[owner]])
+        for row in np.flatnonzero(good & large).tolist():
+            ring_of = ring[ring_starts[row] : ring_starts[row + 1]]
+            halves = _halves(flat[ring_of])
+            if halves is None and len(ring_of) > most:
+                left.append(rows[open_rows[row : row + 1]])
+                continue
+            cut = _fan(len(ring_of)) if halves is None else halves
+            parts.append(some[ring_of[cut]])
+            owners.append(np.full(len(cut), rows[open_rows[row]]))
         open_rows = open_rows[~good]
-    left = [rows[~sound]]
     for row in open_rows.tolist():
         ring_of = np.arange(begin[row], begin[row + 1])
         ears = _ears(flat[ring_of]) if len(ring_of) <= most else None
@@ -133,6 +146,30 @@ def _fans(ring: Index, starts: Index, rows: Index) -> tuple[Index, Index]:
     begin = np.cumsum(count) - count
     place = np.arange(len(owner)) - np.repeat(begin, count) + starts[owner] + 1
     return np.stack([ring[starts[owner]], ring[place], ring[place + 1]], axis=1), owner
+
+
+def _fan(count: int) -> Index:
+    """Triangles (c - 2, 3) of the fan from the first of c corners."""
+    place = np.arange(1, count - 1)
+    return np.stack([np.zeros_like(place), place, place + 1], axis=1)
+
+
+def _halves(flat: Reals) -> Index | None:
+    """Triangles (c - 2, 3) of a strictly convex polygon (c, 2), counter-clockwise, that is a fan; else None.
+
+    Every second corner is cut off, then every second of the rest: no vertex has more than two for each turn.
+    """
+    if not bool((_cross(np.roll(flat, 1, axis=0), flat, np.roll(flat, -1, axis=0)) > 0).all()):
+        return None
+    ring, found = np.arange(len(flat)), []
+    while len(ring) >= _TRIANGLE:
+        tip = np.arange(1, len(ring), 2)
+        cut = np.stack([ring[tip - 1], ring[tip], ring[(tip + 1) % len(ring)]], axis=1)
+        if not bool((_cross(flat[cut[:, 0]], flat[cut[:, 1]], flat[cut[:, 2]]) > 0).all()):
+            return None
+        found.append(cut)
+        ring = np.delete(ring, tip)
+    return np.concatenate(found)
 
 
 def _ears(flat: Reals) -> Index | None:
