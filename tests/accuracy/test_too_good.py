@@ -13,6 +13,16 @@ def test_it_is_the_lower_tail_of_chi_square() -> None:
     assert too_good(d, 2.0, 0.0) == pytest.approx(chi2.cdf(np.sum(d**2) / 4, 4), rel=1e-12)
 
 
+def test_the_variance_of_two_roundings_is_added() -> None:
+    """Each to the half digit h is even over 2 h, of variance h^2 / 3; 20 mm of digits beside a survey of 3 mm."""
+    hidden = 2 * 0.005**2 / 3
+    expected = chi2.cdf(5 * hidden / 0.003**2, 5)
+    assert too_good(np.zeros(5), 0.003, 0.010) == pytest.approx(expected, rel=1e-12)
+    assert np.var(np.random.default_rng(1).uniform(-0.005, 0.005, (2, 10**6)).sum(axis=0)) == pytest.approx(
+        hidden, rel=0.01
+    )
+
+
 def test_probabilities_of_a_faultless_product_are_even() -> None:
     """A product without error of its own, measured against a survey of 3: every probability is as likely as any."""
     rng = np.random.default_rng(7)

@@ -83,6 +83,18 @@ def test_a_distance_may_end_at_an_insert_that_bears_a_name() -> None:
     assert told.ends.tolist() == [Ends.POINTS, Ends.ABSENT]
 
 
+def test_a_name_that_two_drawings_bear_is_no_place() -> None:
+    marks = {"A": (40.5, 8.0), "B": (43.5, 8.0)}
+    lengths = Distances(
+        id=texts("D1"), measured=np.array([3.001]), delivered=np.array([3.0]), resolution=0.0, survey_sd=0.002,
+        start=texts("A"), end=texts("B"),
+    )  # fmt: skip
+    sheets = [ground(drawing(plane="xy", names=marks)), ground(drawing(plane="xy", names=marks, path="g.dxf"))]
+    for some, ends in ((sheets[:1], Ends.POINTS), (sheets, Ends.NAMES)):
+        told = tie_distances(lengths, None, None, some, tie=NEAR.tie, visible=NEAR.visible)
+        assert told.ends.tolist() == [ends]
+
+
 @pytest.mark.parametrize(("value", "shown"), [(1e-5, "0.001 %"), (0.01, "1 %"), (0.0, "0 %"), (0.0676, "6.76 %")])
 def test_a_small_probability_is_not_nothing(value: float, shown: str) -> None:
     assert Words("en").quantity(value, "1") == shown

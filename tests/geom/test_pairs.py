@@ -127,6 +127,14 @@ def star(count: int) -> NDArray[np.object_]:
     return lines
 
 
+def test_pairs_come_in_order_whatever_the_blocks_they_are_found_in() -> None:
+    rng = np.random.default_rng(8)
+    lines = Polylines.of(np.array([shapely.LineString([(a, 0.0), (a + 3.0, 0.0)]) for a in rng.uniform(0, 20, 60)]))
+    i, j = runs_of_two(lines, coincide=1e-3)
+    assert len(i) > 100
+    assert list(zip(i.tolist(), j.tolist(), strict=True)) == sorted(zip(i.tolist(), j.tolist(), strict=True))
+
+
 def test_star_overlaps_nowhere() -> None:
     lines = Polylines.of(star(1000))
     assert not len(line_overlaps(lines, np.zeros(1000, dtype=bool), coincide=1e-6).length)

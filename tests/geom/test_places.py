@@ -88,6 +88,16 @@ def test_a_line_drawn_backwards_has_the_same_place_at_half_its_length(seed: int,
     assert np.array_equal(places, place_on(shapely.reverse(lines)))
 
 
+@pytest.mark.parametrize("same", [["x"], ["x", "y"]])
+def test_so_has_one_whose_ends_lie_behind_or_above_each_other(same: list[str]) -> None:
+    rng = np.random.default_rng(5)
+    vertex = rng.uniform(0, 1, (400, 3, 3))
+    for axis in same:
+        vertex[:, -1, "xyz".index(axis)] = vertex[:, 0, "xyz".index(axis)]
+    lines = np.array([shapely.LineString(line) for line in vertex])
+    assert np.array_equal(place_on(lines), place_on(shapely.reverse(lines)))
+
+
 @pytest.mark.parametrize("symmetric", [False, True])
 @pytest.mark.parametrize("seed", range(20))
 def test_the_place_of_an_area_lies_within_however_its_ring_is_drawn(seed: int, *, symmetric: bool) -> None:
