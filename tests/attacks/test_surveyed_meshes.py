@@ -105,6 +105,12 @@ ATTACKS = {
     "mirrored, class B": Attack(Delivery(points=mirrored, profile="et-doc-foparq-b"), {"Q4", "Q5"}, "mirrored"),
     "millimetres called metres": Attack(Delivery(points=in_millimetres), {*Q1, "Q2", "Q5"}, "multiplied by 1000"),
     "metres called millimetres": Attack(Delivery(unit="mm"), {*Q1, "Q2", "Q5"}, r"multiplied by 0\.001"),
+    "millimetres called metres, class B without tables": Attack(
+        Delivery(points=in_millimetres, profile="et-doc-foparq-b", tables=()), {"Q3-mesh"}, "no object of this scale"
+    ),
+    "metres called millimetres, class B without tables": Attack(
+        Delivery(unit="mm", profile="et-doc-foparq-b", tables=()), {"Q3-mesh"}, "no object of this scale"
+    ),
     "shifted": Attack(Delivery(points=shifted), {*Q1, "Q2", "Q5"}, "moved by 50 mm along x, 20 mm along y and 10 mm"),
     "axes of the table exchanged": Attack(Delivery(told=exchanged), {*Q1, *Q6}, "."),
     "points off the surface": Attack(
@@ -181,6 +187,12 @@ def test_the_error_of_an_axis_is_that_of_the_table(sound: Answer, axis: str, tmp
 def sound_table(folder: Path) -> Path:
     answer(Delivery(), folder / "again")
     return folder / "again" / "pontos.csv"
+
+
+def test_a_unit_that_somebody_answers_for_is_no_doubt(tmp_path: Path) -> None:
+    by_name = '[[confirmed]]\nwhat = "unit"\nvalue = "mm"\nby = "Fiscal"\nreason = "Medalha"\n'
+    made = Delivery(unit="mm", profile="et-doc-foparq-b", tables=(), more=by_name)
+    assert str(answer(made, tmp_path / "delivery").element("Q3-mesh").status) == "pass"
 
 
 def test_who_confirms_that_nothing_was_added_is_named(tmp_path: Path) -> None:

@@ -23,6 +23,8 @@ from foparq.profile.schema import Profile
 
 _KINDS = frozenset({Faces, Surface, Vertices})
 _ENDS = 2  #: vertices of a line that has a middle
+_ON_SHEET = (50.0, 100_000.0)  #: times what can be seen, that an object is across on its sheet
+_MIDDLE = (0.1, 0.9)  #: what lies far outside takes no sense from the bulk
 
 
 @subject(Mesh)
@@ -110,13 +112,33 @@ class MeshSubject(Subject):
         return False
 
     def doubt(self, outcomes: Sequence[Outcome], visible: float) -> Doubt:  # noqa: ARG002 - the engine's call
-        """Unit unknown, or stated against what the format says until somebody answers for it."""
+        """Unit unknown, or stated against what the format or its size says until somebody answers for it."""
         unit = self.mesh.unit
         if unit.metres is None:
             return Doubt(Because.UNIT_UNKNOWN)
         if unit.header_metres not in {None, unit.metres} and "unit" not in self.mesh.confirmed:
             return Doubt(Because.UNIT_CONTRADICTED, (f"unit: {unit.name}", f"format: {unit.header}"))
+        if visible > 0.0 and "unit" not in self.mesh.confirmed and (across := self._off_scale(visible)):
+            return Doubt(Because.UNIT_CONTRADICTED, (f"unit: {unit.name}", f"extent: {across:.3g} m"))
         return NO_DOUBT
+
+    def _off_scale(self, visible: float) -> float:
+        """Metres across a mesh that would be less than 1 cm, or more than 20 m, on paper; 0 if it would not."""
+        low, high = (metres * self.metres for metres in self._across)
+        return low if 0.0 < low < _ON_SHEET[0] * visible else high if high > _ON_SHEET[1] * visible else 0.0
+
+    @cached_property
+    def _across(self) -> tuple[float, float]:
+        """Longest side of the box of its vertices, and of that of their middle four fifths; units of the file."""
+        mesh = self.mesh
+        used = np.zeros(len(mesh.points), dtype=bool)
+        used[mesh.corners[mesh.there]] = True
+        points = mesh.points[used & mesh.finite]
+        if not len(points):
+            return 0.0, 0.0
+        with np.errstate(over="ignore"):  # coordinates may be any number
+            low, high = np.quantile(points, _MIDDLE, axis=0)
+            return float(np.ptp(points, axis=0).max()), float((high - low).max())
 
     def counted(self, rows: Index, faulty: Index) -> int:
         """Faces or vertices judged."""

@@ -153,12 +153,20 @@ def _told(name: str, mesh: _Mesh, limit: float) -> Reason:
 
 
 def _units(evidence: Evidence, name: str) -> tuple[Reason, ...]:
-    """Meshes whose format says another unit than is stated of them, until somebody answers for it."""
-    return tuple(
+    """Meshes whose format or size says another unit than is stated of them, until somebody answers for it."""
+    header = [
         because("surface.unit", element=name, file=mesh.path, stated=mesh.unit.name, says=mesh.unit.header)
         for mesh in evidence.delivery.meshes
         if mesh.unit.header_metres not in {None, mesh.unit.metres} and "unit" not in mesh.confirmed
-    )
+    ]
+    told = {dict(reason.fields)["file"] for reason in header}
+    doubted = {one.source: one for one in evidence.outcomes if one.because is Because.UNIT_CONTRADICTED}
+    size = [
+        because("surface.size", element=name, file=mesh.path, says=list(doubted[mesh.path].names))
+        for mesh in evidence.delivery.meshes
+        if mesh.path in doubted and mesh.path not in told
+    ]
+    return (*header, *size)
 
 
 def _rims(evidence: Evidence, name: str) -> tuple[Reason, ...]:
