@@ -105,7 +105,7 @@ def test_what_a_length_means_is_left_open_where_nobody_states_the_unit(
 
 def test_a_delivery_of_one_mesh_is_audited_and_drawings_are_not_asked_for(foparq: Command, tmp_path: Path) -> None:
     obj(tmp_path / "busto.obj", *ball(without=1))
-    manifest(tmp_path, 'path = "busto.obj"\nunit = "mm"\nclosed = false')
+    manifest(tmp_path, 'path = "busto.obj"\nunit = "m"\nclosed = false')
     code, out, _ = foparq("audit", tmp_path)
     record = audited(tmp_path)
     elements = {one["id"]: one for one in record["elements"]}  # type: ignore[attr-defined]
