@@ -59,6 +59,14 @@ def test_nine_tenths_of_the_vertices_are_the_bound(changed: int, same: int) -> N
     assert len(alike(one, other + 50)) == same
 
 
+@pytest.mark.parametrize(("off", "same"), [(1.9, 1), (2.1, 0)])
+def test_vertices_are_the_same_up_to_twice_the_tolerance(off: float, same: int) -> None:
+    """Boxes stay as they are but for every second one, which is moved: no shift brings all of them together."""
+    one = apart(BOXES)
+    other = one + np.where(np.arange(len(one)) % 2, off * NEAR.tie, 0.0)[:, None] * [1, 0, 1, 0]
+    assert len(alike(one, other)) == same
+
+
 def test_the_same_windows_at_other_places_are_no_copy() -> None:
     """One block for all: every line has its like in the other drawing, and the places differ."""
     window = np.array([0, 0, 1.2, 1.8])

@@ -116,6 +116,10 @@ def test_what_a_poor_survey_explains_exactly_to_the_limit_fails() -> None:
     assert relative(0.28125, reference_share=1 / 3, survey_sd=0.1875).status is UNDECIDED
 
 
+def test_a_limit_of_nothing_is_a_limit() -> None:
+    assert relative(0.25, limit=Quantity(0.0, "m"), reference_share=None).status is FAIL
+
+
 @pytest.mark.parametrize(("n", "status"), [(2, UNDECIDED), (3, PASS), (4, PASS)])
 def test_the_fewest_observations_are_enough(n: int, status: ElementStatus) -> None:
     element = relative(0.125, n=n, fewest=3)

@@ -104,6 +104,12 @@ def test_small_blocks_are_admitted_before_large_ones_in_whatever_order() -> None
     assert admit({"C": 1, "A": 2, "B": 1}, census, 30) == {"B": 50}
 
 
+def test_a_block_may_fill_the_room_that_is_left() -> None:
+    census = count_blocks({"A": 10, "B": 6}, {"A": [], "B": []})
+    assert admit({"A": 1, "B": 2}, census, 22) == {}
+    assert admit({"A": 1, "B": 2}, census, 21) == {"B": 6}
+
+
 def test_model_space_over_the_budget_is_refused(tmp_path: Path) -> None:
     document = new()
     for n in range(4):

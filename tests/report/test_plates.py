@@ -15,7 +15,7 @@ from foparq.findings.table import Findings, join_findings
 from foparq.model.drawing import Drawing
 from foparq.report.page.findings import FIRST
 from foparq.report.page.page import page
-from foparq.report.page.plates import MOST, cut
+from foparq.report.page.plates import MOST, _crowded, cut
 from foparq.report.record import AuditRecord
 
 Plant = Callable[..., Findings]
@@ -372,3 +372,10 @@ def test_groups_are_parted_at_the_gap_between_them() -> None:
     spots = np.rint(np.concatenate([random.normal(5000, 30, (10, 2)), random.normal(25_000, 30, (10, 2))]))
     parts = list(cut(spots, np.arange(20), 24, np.inf, np.array([269.0, 155.0])))
     assert sorted(sorted(part.tolist()) for part in parts) == [list(range(10)), list(range(10, 20))]
+
+
+@pytest.mark.parametrize(("spots", "crowded"), [
+    ([[0, 0], [0, 0], [100, 0]], False), ([[0, 0], [0, 0]], False), ([[0, 0], [1e-6, 0], [100, 100]], True),
+])  # fmt: skip
+def test_marks_at_one_place_crowd_nothing(spots: list[list[float]], crowded: bool) -> None:  # noqa: FBT001
+    assert _crowded(np.array(spots, dtype=float), 1.0) is crowded
