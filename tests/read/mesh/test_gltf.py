@@ -31,6 +31,16 @@ def test_all_containers(tmp_path: Path, kind: int) -> None:
         assert sound(mesh)
 
 
+@pytest.mark.parametrize("room", [0, -1])
+def test_files_beside_may_fill_the_bytes_that_one_file_may_have(tmp_path: Path, room: int) -> None:
+    made, size = pyramid(POINTS, TRIANGLES), 100_000
+    (tmp_path / "torre.bin").write_bytes(made.data + bytes(size - len(made.data)))
+    if room < 0:
+        refused(tmp_path, made.text("torre.bin"), bytes=size + room)
+    else:
+        assert faces_of(read(tmp_path, made.text("torre.bin"), bytes=size + room)) == FACES
+
+
 def test_without_indices_and_interleaved(tmp_path: Path) -> None:
     made = Gltf()
     position = made.accessor([POINTS[vertex] for face in TRIANGLES for vertex in face], stride=20)
@@ -178,6 +188,7 @@ def test_sparse_accessors(tmp_path: Path) -> None:
         (5121, [(0, 255), (51, 204), (255, 0)], [(0.0, 1.0), (0.2, 0.8), (1.0, 0.0)]),
         (5123, [(0, 65535), (13107, 0), (65535, 0)], [(0.0, 1.0), (0.2, 0.0), (1.0, 0.0)]),
         (5120, [(-128, 127), (-127, 0), (127, 0)], [(-1.0, 1.0), (-1.0, 0.0), (1.0, 0.0)]),
+        (5122, [(-32768, 32767), (-32767, 0), (32767, 0)], [(-1.0, 1.0), (-1.0, 0.0), (1.0, 0.0)]),
     ],
 )
 def test_whole_numbers_that_mean_shares(
