@@ -32,6 +32,7 @@ FLOORED = {
     "pyproj": ("read", "model"),
     "lxml": ("read", "report"),
     "openpyxl": ("read",),
+    "laspy": ("read",),
     "jinja2": ("report",),
     "click": ("cli",),
     "rich": ("cli",),

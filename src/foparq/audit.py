@@ -1,20 +1,19 @@
 # SPDX-License-Identifier: MIT
 """One delivery, audited: read, check, evaluate. The whole flow on a page."""
 
-import traceback
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, TypeVar, cast
 
 import numpy as np
 import shapely
 
 from foparq import __version__
-from foparq.check.bounds import Broken, Budget, budget_of
+from foparq.bounded import in_child, once
+from foparq.check.bounds import Broken
 from foparq.check.drawn.symbols import with_symbols
 from foparq.check.drawn.witnesses import with_witnesses
 from foparq.check.run import check_part
@@ -27,15 +26,16 @@ from foparq.evaluate.decisions import wrong_decision
 from foparq.evaluate.evaluate import evaluate
 from foparq.evaluate.evidence import Evidence
 from foparq.findings.because import Because
+from foparq.findings.clouds import CloudDistances
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.table import Severity, join_findings
 from foparq.findings.ties import Ties
 from foparq.model.delivery import Delivery
+from foparq.profile.elements import SurfaceDistanceSpec
 from foparq.profile.load import load_manifest
 from foparq.profile.schema import Profile
 from foparq.profile.terms import Reviewer, Terms, terms_of
 from foparq.read.delivery import read_delivery, read_loose
-from foparq.read.guard.stream import Stopped, streamed
 from foparq.read.versions import reader_versions
 from foparq.report.files import Written, writable, write_reports
 from foparq.report.record import AuditRecord
@@ -45,7 +45,6 @@ OUT = "audit"  #: folder of the reports, beside the manifest
 _NOTHING = Reviewer()  #: the delivery's own words hold
 
 Progress = Callable[[str], None]
-T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -180,22 +179,24 @@ def _judged(
     ties, untied = _tied(delivery, profile, scale) if not loose else (None, None)
     if not loose:
         delivery = with_witnesses(delivery, ties)
-    delivery, unsure = with_symbols(delivery, profile, scale, _in_child)
-    checked = [check_part(part, profile, scale, progress, _in_child) for part in delivery.parts]
+    delivery, unsure = with_symbols(delivery, profile, scale, in_child)
+    checked = [check_part(part, profile, scale, progress, in_child) for part in delivery.parts]
     outcomes = tuple(outcome for one in checked for outcome in one.outcomes)
     findings = join_findings([one.findings for one in checked])
     gap = profile.completeness.gap.si(scale) if profile.completeness and not loose else None
     near = profile.evidence.search.si(scale) if profile.evidence and gap is not None else gap or 0.0
     counts, broken = (None, None) if gap is None else _counted(delivery, gap, near, profile)
+    clouds, uncompared = _against_clouds(delivery, profile, scale) if not loose else ((), None)
     traces = (
         *(*log, *unsure, *(trace for one in checked for trace in one.log)),
-        *(one.trace for one in (untied, broken) if one and one.trace),
+        *(one.trace for one in (untied, broken, uncompared) if one and one.trace),
     )
+    ended = [one.because for one in (untied, broken, uncompared) if one]
     evidence = Evidence(
         delivery=delivery, outcomes=outcomes, counts=counts, scale=scale,
         uncounted=broken.because if broken else Because.RAN,
-        crashed=bool(log or unsure) or any(one and one.because is Because.CRASHED for one in (untied, broken)),
-        ties=ties,
+        crashed=bool(log or unsure) or Because.CRASHED in ended,
+        ties=ties, clouds=clouds, uncompared=uncompared.because if uncompared else Because.RAN,
         faults=int(np.count_nonzero(findings.severity != Severity.NOTE)),
     )  # fmt: skip
     if not loose and (wrong := wrong_decision(profile, evidence)) is not None:
@@ -229,22 +230,12 @@ def _manifest_of(delivery: Delivery) -> str:
     return next((source.path for source in delivery.sources if source.role == "manifest"), MANIFEST)
 
 
-def _in_child(function: Callable[..., Iterator[object]], args: tuple[Any, ...], budget: Budget) -> Iterator[object]:
-    """Rules within the bounds of the profile: what a drawing does to them must not happen to the audit."""
-    told = streamed(function, args, seconds=budget.seconds, at_once=budget.at_once, memory=budget.memory)
-    for thing in told:
-        if isinstance(thing, Stopped):
-            yield Broken(Because.LIMIT) if thing.spent else Broken(Because.CRASHED, thing.words)
-        else:
-            yield thing
-
-
 def _tied(delivery: Delivery, profile: Profile, scale: float | None) -> tuple[Ties | None, Broken | None]:
     """What of the tables belongs to the drawings, or why the search broke off."""
     if profile.evidence is None:
         return None, None
     near = Nearness(**{name: getattr(profile.evidence, name).si(scale) for name in Nearness._fields})
-    ties, broken = _once("tying evidence", tie_evidence, (delivery, near), delivery, profile)
+    ties, broken = once("tying evidence", tie_evidence, (delivery, near), delivery, profile)
     return (Ties(broken=broken.because) if broken else ties), broken
 
 
@@ -252,39 +243,24 @@ def _counted(
     delivery: Delivery, gap: float, near: float, profile: Profile
 ) -> tuple[FeatureCounts | None, Broken | None]:
     """Delivered features, or why their count broke off."""
-    return _once("counting features", partial(listed_in, gap=gap, near=near), (delivery,), delivery, profile)
+    return once("counting features", partial(listed_in, gap=gap, near=near), (delivery,), delivery, profile)
 
 
-def _once(
-    what: str, function: Callable[..., T], args: tuple[Any, ...], delivery: Delivery, profile: Profile
-) -> tuple[T | None, Broken | None]:
-    """Result of one function within the bounds of the profile for rules, or why it broke off.
+def _against_clouds(
+    delivery: Delivery, profile: Profile, scale: float | None
+) -> tuple[tuple[CloudDistances, ...], Broken | None]:
+    """Distances of the references from the meshes, or why their search broke off."""
+    if profile.evidence is None or not (delivery.references and delivery.meshes):
+        return (), None
+    from foparq.check.surfaces.clouds import compare_clouds  # noqa: PLC0415 - a drawing never loads it
 
-    Parameters
-    ----------
-    what : str
-        Heads the log if it crashes.
-    """
-    seconds = sum(budget_of(part, profile.limits, 0.0).seconds for part in delivery.parts) or 1.0
-    result: T | None = None
-    for thing in streamed(
-        _made, (what, function, args), seconds=seconds, at_once=seconds, memory=profile.limits.check_memory
-    ):
-        if isinstance(thing, Stopped):
-            return None, Broken(Because.LIMIT) if thing.spent else Broken(Because.CRASHED, thing.words)
-        if isinstance(thing, Broken):
-            return None, thing
-        result = cast("T", thing)
-    return result, None
-
-
-def _made(what: str, function: Callable[..., T], args: tuple[Any, ...]) -> Iterator[T | Broken]:
-    try:
-        yield function(*args)
-    except MemoryError:
-        raise
-    except Exception:  # noqa: BLE001 - a crash is ours: elements that need the result are undecided
-        yield Broken(Because.CRASHED, f"{what}\n{traceback.format_exc()}")
+    specs = [spec for spec in profile.elements if isinstance(spec, SurfaceDistanceSpec) and spec.beyond is not None]
+    beyond = specs[0].beyond.si(scale) if specs and specs[0].beyond is not None else None
+    search = profile.evidence.search.si(scale)
+    compare = partial(compare_clouds, search=search, beyond=beyond)
+    points = sum(len(cloud.points) for cloud in delivery.references)
+    found, broken = once("comparing references", compare, (delivery,), delivery, profile, more=points)
+    return found or (), broken
 
 
 def versions() -> dict[str, str]:

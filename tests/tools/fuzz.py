@@ -160,7 +160,7 @@ def unguarded() -> Iterator[None]:
     """Reading and checking in this process: child processes cost more than small drawings."""
     with (
         mock.patch("foparq.read.delivery.guarded", _called),
-        mock.patch("foparq.audit.streamed", _streamed),
+        mock.patch("foparq.bounded.streamed", _streamed),
         warnings.catch_warnings(),
     ):
         warnings.simplefilter("ignore")

@@ -29,7 +29,7 @@ def unguarded() -> Iterator[None]:
         return function(*args)
 
     with (
-        patch("foparq.read.delivery.guarded", straight), patch("foparq.audit.streamed", stream),
+        patch("foparq.read.delivery.guarded", straight), patch("foparq.bounded.streamed", stream),
         warnings.catch_warnings(),
     ):  # fmt: skip
         warnings.simplefilter("ignore")

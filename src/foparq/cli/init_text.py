@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from foparq.cli.init_names import aids_like, class_like, facade_like
 from foparq.profile.examples import EXAMPLES
+from foparq.read.cloud.found import FoundCloud
 from foparq.read.table.revisions import revision_of
 from foparq.read.table.survey import FoundDrawing, FoundMesh, FoundTable, Other, Survey
 from foparq.report.words import Words, printable
@@ -48,6 +49,8 @@ def manifest_text(found: Survey, title: str, say: Words) -> str:
         lines += ["", *proposed]
     for mesh in found.meshes:
         lines += ["", *_mesh(mesh, say)]
+    for cloud in found.clouds:
+        lines += ["", *_reference(cloud, found.meshes, say)]
     for role in ("features", "checkpoints", "distances"):
         lines += ["", *_comment(say(f"cli.manifest.{role}")), *_table(role, found.tables.get(role, ()), say)]
     if found.others:
@@ -110,6 +113,21 @@ def _mesh(mesh: FoundMesh, say: Words) -> list[str]:
         *_comment(say("cli.manifest.mesh", faces=mesh.faces, x=x, y=y, z=z)),
         f"# unit = {_quoted(unit)}  # {says}",
         f"# closed = false  # {say('cli.manifest.closed')}",
+    ]
+
+
+def _reference(cloud: FoundCloud, meshes: Sequence[FoundMesh], say: Words) -> list[str]:
+    x, y, z = cloud.extent
+    mesh = meshes[0].path if meshes else "busto.ply"
+    # Without a mesh nothing can be compared with it.
+    mark = "" if meshes else "# "
+    return [
+        *_comment(say("cli.manifest.references", points=cloud.points, x=x, y=y, z=z)),
+        f"{mark}[[reference]]",
+        f"{mark}path = {_quoted(cloud.path)}",
+        f'# unit = "m"  # {say("cli.manifest.mesh-unit")}',
+        f'# survey_sd = "3 mm"  # {say("cli.manifest.reference-sd")}',
+        f"# mesh = {_quoted(mesh)}  # {say('cli.manifest.reference-mesh')}",
     ]
 
 

@@ -60,7 +60,7 @@ def evaluate(profile: Profile, evidence: Evidence, *, terms: Terms | None = None
         evidence = replace(evidence, crashed=True)
     if loose:
         return Evaluation(conclude_files(profile, evidence, elements), tuple(log))
-    quality = replace(decide(profile, evidence, elements), balances=balanced)
+    quality = replace(decide(profile, evidence, elements), balances=balanced, clouds=evidence.clouds)
     if evidence.counts is not None:
         quality = replace(quality, found=evidence.counts.found)
     if terms is not None and (first := whose(terms, evidence.delivery)):

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from foparq.evaluate.measures import measures
 from foparq.evaluate.quality import Element, ElementStatus, Reason, Residuals, because, some
 from foparq.findings.because import Because
+from foparq.findings.clouds import CloudDistances
 from foparq.findings.counts import FeatureCounts
 from foparq.findings.outcome import Outcome
 from foparq.findings.ties import Ties
@@ -33,6 +34,8 @@ class Evidence:
     scale: float | None  #: denominator k of 1:k
     uncounted: Because = Because.RAN  #: why the count of features broke off: ``LIMIT`` or ``CRASHED``
     ties: Ties | None = None  #: what of the tables belongs to the drawings; ``None`` if nobody looked
+    clouds: tuple[CloudDistances, ...] = ()  #: references against meshes
+    uncompared: Because = Because.RAN  #: why that broke off: ``LIMIT`` or ``CRASHED``
     faults: int = 0  #: findings that are no notes
     crashed: bool = False  #: something of the program crashed outside the rules
     completeness: tuple[str, ...] = ()  #: ids of the elements that count features

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+from foparq.findings.clouds import CloudDistances
 from foparq.findings.counts import FoundFeatures
 from foparq.model.statements import Decision
 
@@ -182,6 +183,7 @@ class QualityReport:
     refused: bool = False  #: a file that was named could not be read
     terms: Reason | None = None  #: whose specification and scale it rests on; then it is the first of the reasons
     balances: tuple[ClassBalance, ...] = ()  #: by class and facade; none where nothing was compared
+    clouds: tuple[CloudDistances, ...] = ()  #: references against meshes
     found: FoundFeatures = field(default_factory=FoundFeatures.none)  #: drawn features
 
     @property

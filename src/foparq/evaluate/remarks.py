@@ -14,6 +14,7 @@ _REMARKS = frozenset({
     "checks.preview", "checks.unfit", "faulty.free", "faulty.probable", "faulty.shared",
     "features.unmapped", "omission.net", "omission.unproven", "evidence.most-confirmed", "evidence.unnamed",
     "surface.not-compared", "surface.stated-rims", "evidence.names-only-mesh",
+    "surface.reference-elsewhere", "omission.uncovered", "omission.uncovered-at",
     "omission.openings", "commission.confirmed", "commission.unlisted",
 })  # fmt: skip
 

@@ -9,6 +9,7 @@ from foparq.columns import Coordinates, Index
 from foparq.mesh.bvh import hierarchy
 from foparq.mesh.distance import nearest
 from foparq.mesh.intersections import intersections
+from foparq.mesh.winding import winding
 
 #: two squares that cross, one that lies on the first, one that touches it: every way to meet
 _SQUARES = (
@@ -31,6 +32,13 @@ def warm_nearest() -> None:
     """The same for the kernels of distances."""
     points, corners = _triangles()
     nearest(points, hierarchy(points, corners), points[:3])
+
+
+@cache
+def warm_winding() -> None:
+    """The same for the kernels of winding numbers, of an open mesh."""
+    points, corners = _triangles()
+    winding(points, corners, points[:3] + 0.1)
 
 
 def _triangles() -> tuple[Coordinates, Index]:

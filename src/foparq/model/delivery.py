@@ -4,6 +4,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+from foparq.model.cloud import Cloud
 from foparq.model.drawing import Drawing, Repair, Skipped
 from foparq.model.mesh import Mesh
 from foparq.model.part import Part
@@ -30,7 +31,8 @@ class Source:
     """One file of the delivery."""
 
     path: str  #: relative to the delivery, with ``/``
-    role: str  #: ``drawing``, ``mesh``, ``checkpoints``, ``distances``, ``features``, ``manifest`` or ``other``
+    #: ``drawing``, ``mesh``, ``reference``, ``checkpoints``, ``distances``, ``features``, ``manifest`` or ``other``
+    role: str
     sha256: str  #: of the delivered bytes; ``""`` if missing
     bytes: int
     status: SourceStatus
@@ -47,6 +49,7 @@ class Delivery:
     title: str
     sources: tuple[Source, ...]
     parts: tuple[Part, ...] = ()
+    references: tuple[Cloud, ...] = ()  #: in the order of the manifest
     checkpoints: Checkpoints | None = None
     distances: Distances | None = None
     features: FeatureList | None = None

@@ -62,6 +62,8 @@ class SkippedReason(StrEnum):
     VIRTUAL_TABLE = "virtual-table"
     # of a table of points, distances or features
     ABOVE_HEADER = "above-header"
+    # of a cloud of points
+    NO_COORDINATES = "no-coordinates"  #: a point of which a coordinate is no number
     # of a mesh
     LINES_AND_POINTS = "lines-and-points"  #: beside the faces
     MATERIALS = "materials"  #: a library of materials that is not there, or may not be opened
@@ -84,6 +86,7 @@ _NO_LINEWORK = frozenset({
     SkippedReason.INFINITE_LINE,  # an aid of construction, not plotted as drawing
     SkippedReason.LINES_AND_POINTS,  # no surface, and a mesh is delivered for its surface
     SkippedReason.MATERIALS,  # how a surface looks, not where it is: the image that is missing is told by itself
+    SkippedReason.NO_COORDINATES,  # of a reference: no part of what is delivered
     SkippedReason.NO_GEOMETRY,  # nothing is drawn
     SkippedReason.NO_SURFACE,  # cameras and lights of a mesh
     SkippedReason.NOT_ASKED,  # the manifest names what is delivered

@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping
 from typing import ClassVar
 
-from foparq.profile.quantities import AnyQuantity, LooserWhen, Share, Strict
+from foparq.profile.quantities import AnyQuantity, Length, LooserWhen, Share, Strict
 
 AXES = ("X", "Y", "Z")
 
@@ -133,6 +133,16 @@ class SurfaceRateSpec(RulesSpec):
     """Share of the surface of meshes that is at fault, by faces and by area."""
 
     KIND = "surface-rate"
+
+
+class SurfaceDistanceSpec(ElementSpec):
+    """Distances of clouds of reference from meshes. Nothing passes or fails: a number without a limit."""
+
+    KIND = "surface-distance"
+    LOOSER: ClassVar[Mapping[str, LooserWhen]] = {"beyond": LooserWhen.LARGER}
+    ABSENT: ClassVar[Mapping[str, float]] = {"beyond": math.inf}  # nothing is counted
+
+    beyond: Length | None = None  #: what is farther from the surface is counted apart: the limit of Q1
 
 
 class CommissionSpec(LimitedSpec):

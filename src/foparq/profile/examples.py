@@ -13,6 +13,7 @@ EXAMPLES = {
     "closed": "closed = false",
     "drawing": "[[drawing]]",
     "mesh": "[[mesh]]",
+    "reference": "[[reference]]",
     "rims": "closed = false, rims = 2",
     "up": 'up = "z"',
     "weld": 'weld = "identical"',

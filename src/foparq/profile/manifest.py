@@ -92,6 +92,15 @@ class MeshSection(Strict):
         return value
 
 
+class ReferenceSection(Strict):
+    """``[[reference]]``: a cloud of points that shows what a mesh should be."""
+
+    path: str
+    unit: UnitName | None = None  #: of its coordinates
+    survey_sd: LengthOnObject | None = None  #: how well its points are known
+    mesh: str = ""  #: path of the mesh that it shows; left out: every mesh of the delivery together
+
+
 class TableSection(Strict):
     """One table."""
 
@@ -190,6 +199,7 @@ class Manifest(Strict):
     delivery: DeliverySection = DeliverySection()
     drawing: tuple[DrawingSection, ...] = ()
     mesh: tuple[MeshSection, ...] = ()
+    reference: tuple[ReferenceSection, ...] = ()
     features: FeaturesSection | None = None
     checkpoints: SurveySection | None = None
     distances: SurveySection | None = None

@@ -38,6 +38,7 @@ class LimitsSpec(Strict):
     entities: int = 2_000_000  #: entities after taking blocks apart, per drawing
     vertices: int = 5_000_000  #: vertices after flattening, per drawing
     faces: int = 20_000_000  #: faces of one mesh; as many vertices
+    points: int = 50_000_000  #: points of one reference
     bytes: int = 1_000_000_000  #: size of one file
     seconds: int = 600  #: reading one file
     memory: int = 2_000_000_000  #: bytes beyond the start, reading one file

@@ -30,6 +30,7 @@ from foparq.profile.manifest import (
     TableSection,
 )
 from foparq.profile.schema import Profile
+from foparq.read.cloud.take import take_cloud
 from foparq.read.guard.parent import guarded
 from foparq.read.guard.paths import inside, name_of
 from foparq.read.guard.sniff import Format, format_of, holds_mesh
@@ -112,6 +113,10 @@ def read_delivery(
         _drawing(intake, section, shown_path(section.path), find, manifest.confirmed)
     for mesh in manifest.mesh:
         take_mesh(intake, mesh, shown_path(mesh.path), partial(inside, root, mesh.path), manifest.confirmed)
+    clouds = [
+        take_cloud(intake, section, partial(inside, root, section.path), manifest.mesh)
+        for section in manifest.reference
+    ]
     drawings = [part for part in intake.parts if isinstance(part, Drawing)]
     extents = tuple(extent for drawing in drawings if (extent := extent_of(drawing)))
     checkpoints = _table(intake, root, "checkpoints", manifest.checkpoints, read_checkpoints, extents)
@@ -122,7 +127,8 @@ def read_delivery(
     take_unnamed(intake, root)
     delivery = Delivery(
         title=manifest.delivery.title or root.resolve().name, sources=tuple(intake.sources),
-        parts=tuple(intake.parts), checkpoints=checkpoints, distances=distances, features=features,
+        parts=tuple(intake.parts), references=tuple(filter(None, clouds)), checkpoints=checkpoints,
+        distances=distances, features=features,
         confirmed=confirmations,
         contract=_contract(manifest.contract),
         crs="" if folded(manifest.delivery.crs) == "local" else manifest.delivery.crs,

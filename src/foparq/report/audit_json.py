@@ -14,6 +14,7 @@ from foparq.findings.counts import FoundFeatures
 from foparq.findings.outcome import Outcome
 from foparq.model.delivery import Source
 from foparq.model.drawing import Repair
+from foparq.report.clouds import clouds_json
 from foparq.report.harmless import json_lines
 from foparq.report.record import AuditRecord
 from foparq.report.rows import number, written_rows
@@ -65,6 +66,7 @@ def audit_json(record: AuditRecord) -> dict[str, Any]:
         "inputs": [_source(words, source, repairs.get(source.path, ())) for source in record.delivery.sources],
         "elements": [_element(words, element) for element in record.quality.elements],
         "residuals": [_residuals(element.id, residuals) for element, residuals in record.quality.measured],
+        "references": clouds_json(record.quality),
         "completeness": [_balance(balance, record.quality.found) for balance in record.quality.balances],
         "checks": [_outcome(outcome) for outcome in record.outcomes],
         "crashed": list(record.crashed),

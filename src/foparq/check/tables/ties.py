@@ -68,7 +68,9 @@ def _surfaces(delivery: Delivery) -> list[Ground]:
 def prepare(delivery: Delivery) -> None:
     """Make ready, once in this process and outside of any bounds, what meshes need: compiled code."""
     tables = (delivery.checkpoints, delivery.distances, delivery.features)
-    if delivery.meshes and any(table is not None for table in tables):
-        from foparq.mesh.warm import warm_nearest  # noqa: PLC0415 - a drawing never loads it
+    if delivery.meshes and (delivery.references or any(table is not None for table in tables)):
+        from foparq.mesh.warm import warm_nearest, warm_winding  # noqa: PLC0415 - a drawing never loads it
 
         warm_nearest()
+        if delivery.references:
+            warm_winding()

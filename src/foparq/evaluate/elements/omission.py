@@ -4,6 +4,7 @@
 from dataclasses import replace
 
 from foparq.evaluate.balance import Balance, Incomparable, balances
+from foparq.evaluate.clouds import uncovered_remarks
 from foparq.evaluate.comparable import (
     doubtful,
     gap_reasons,
@@ -48,6 +49,7 @@ def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
     nothing = no_balance(evidence, spec.id)
     if nothing is not None or features is None or counts is None:
         judgement = nothing or judged(ElementStatus.NOT_ASSESSED, because("features.no-list", element=spec.id))
+        judgement = judged(judgement.status, *judgement.why, *uncovered_remarks(evidence, spec.id))
         return (element(spec, _MEASURE, judgement, scope=scope, limit=limit, comparison="<=", method="directExternal"),)
     every = tuple(
         # What lies astray of the facade is a surplus there, and may fill no gap in it.
@@ -76,6 +78,7 @@ def omission(spec: OmissionSpec, evidence: Evidence) -> tuple[Element, ...]:
     remarks = (
         *placed(known, spec.id),
         *openings(evidence, spec.id),
+        *uncovered_remarks(evidence, spec.id),
         *decided(every, spec.id),
         *unmapped(counts, spec.id),
     )

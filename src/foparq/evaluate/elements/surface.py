@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foparq.columns import union
+from foparq.evaluate.clouds import compared, of_something_else
 from foparq.evaluate.evidence import Evidence, Judgement, element, judged, limit_of, unseen_meshes
 from foparq.evaluate.kinds import evaluates
 from foparq.evaluate.quality import Element, ElementStatus, Reason, because
@@ -135,13 +136,15 @@ def _judge(spec: SurfaceRateSpec, evidence: Evidence, meshes: Sequence[_Mesh], f
 
 def _loose(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     """Remark on meshes of whose size and place no table says anything."""
+    told = of_something_else(evidence, name)
     points, counts = evidence.ties.points if evidence.ties else None, evidence.counts
     if counts is not None and counts.on_meshes and counts.placements is not None and not counts.placements.elsewhere:
-        return ()
-    held = set(points.drawing.tolist()) if points is not None else set()
+        return told
+    held = compared(evidence)
+    held |= set(points.drawing.tolist()) if points is not None else set()
     held |= {mesh.path for mesh in evidence.ties.beside if len(mesh.ids) >= _COMPARED} if evidence.ties else set()
     loose = [mesh.path for mesh in evidence.delivery.meshes if mesh.path not in held]
-    return (because("surface.not-compared", element=name, files=loose),) if loose else ()
+    return (because("surface.not-compared", element=name, files=loose), *told) if loose else told
 
 
 def _told(name: str, mesh: _Mesh, limit: float) -> Reason:

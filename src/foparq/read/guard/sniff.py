@@ -31,6 +31,14 @@ class MeshFormat(StrEnum):
     STL = "stl"
 
 
+class CloudFormat(StrEnum):
+    """Formats of clouds of points that foparq reads."""
+
+    LAS = "las"
+    PLY = "ply"
+    TEXT = "text"
+
+
 _MAGIC = (
     (b"AutoCAD Binary DXF\r\n\x1a\x00", Format.DXF),
     (b"SQLite format 3\x00", Format.GPKG),
@@ -136,6 +144,36 @@ def mesh_format_of(path: Path) -> MeshFormat:
     if found is None:
         raise UnreadableError("mesh.unknown-format", file=path.name)
     return found
+
+
+def cloud_format_of(path: Path) -> CloudFormat:
+    """Format of a cloud of points.
+
+    Parameters
+    ----------
+    path : Path
+        A regular file.
+
+    Raises
+    ------
+    UnreadableError
+        If the file is empty, an archive, or nothing that foparq reads as a cloud; the error says which.
+    """
+    with path.open("rb") as stream:
+        head = stream.read(_HEAD)
+    if not head:
+        raise UnreadableError("read.empty", file=path.name)
+    if head.startswith(b"LASF"):
+        return CloudFormat.LAS
+    if _PLY.match(head):
+        return CloudFormat.PLY
+    text = head.removeprefix(b"\xef\xbb\xbf").lstrip()
+    if archive := _named(head, _ARCHIVES):
+        raise UnreadableError("read.archive", file=path.name, value=archive)
+    other = _named(head, _MAGIC) or _named(text, _NO_MESHES) or ("glTF" if head.startswith(b"glTF") else "")
+    if other or (b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff"))):
+        raise UnreadableError("cloud.not-a-cloud", file=path.name, value=str(other or "?"))
+    return CloudFormat.TEXT
 
 
 def holds_mesh(path: Path) -> bool:

@@ -58,6 +58,24 @@ def read_ply(delivered: Delivered) -> RawMesh:
     return made(delivered, points, corners, starts, reading, texture=texture)
 
 
+def read_ply_points(delivered: Delivered) -> tuple[Coordinates, str]:
+    """Vertices (n, 3) of a PLY file, with faces or without, and the version of the format.
+
+    Raises
+    ------
+    UnreadableError, UnsafeError
+        As :func:`read_ply` does; a file without faces is none of these.
+    """
+    header = read_header(delivered.data, delivered.name)
+    _hold(delivered, header)
+    vertex = _tables(delivered, header)[0]["vertex"]
+    # One axis after the other: a cloud takes half of the memory that a read may use.
+    points = np.empty((len(vertex["x"].value), len(_AXES)))
+    for column, axis in enumerate(_AXES):
+        points[:, column] = vertex[axis].value
+    return points, f"PLY {header.form} {header.version}"
+
+
 _READ = ("vertex", "face", "tristrips")
 
 

@@ -15,6 +15,7 @@ from foparq.model.items import Role
 from foparq.model.mesh import Mesh
 from foparq.profile.manifest import SurveySection, TableSection
 from foparq.profile.schema import LimitsSpec, Profile
+from foparq.read.cloud.found import FoundCloud, found_cloud
 from foparq.read.delivery import read_loose
 from foparq.read.guard.parent import guarded
 from foparq.read.guard.paths import files_of
@@ -82,6 +83,7 @@ class Survey:
     others: tuple[Other, ...]  #: files that are neither, or could not be read
     classes: tuple[str, ...] = ()  #: of the list of features
     facades: tuple[str, ...] = ()  #: likewise
+    clouds: tuple[FoundCloud, ...] = ()
 
 
 def survey_folder(folder: Path, profile: Profile) -> Survey:
@@ -100,6 +102,7 @@ def survey_folder(folder: Path, profile: Profile) -> Survey:
     names = sorted(path.relative_to(folder).as_posix() for path in files_of(folder, frozenset({"audit"})))
     drawings: list[FoundDrawing] = []
     meshes: list[FoundMesh] = []
+    clouds: list[FoundCloud] = []
     tables: dict[str, list[FoundTable]] = {}
     others: list[Other] = []
     for name in names:
@@ -116,13 +119,15 @@ def survey_folder(folder: Path, profile: Profile) -> Survey:
             drawings.append(_found(part, name))
         elif isinstance(part, Mesh):
             meshes.append(_found_mesh(part, name))
+        elif (cloud := found_cloud(folder / name, name, profile)) is not None:
+            clouds.append(cloud)
         else:
             others.append(_other(name, why, part))
     latest = {role: tuple(sorted(found, key=lambda one: -revision_of(one.path).rank)) for role, found in tables.items()}
     classes, facades = _listed(folder, latest.get("features", ()), profile.limits)
     return Survey(
         drawings=tuple(drawings), meshes=tuple(meshes), tables=latest, others=tuple(others), classes=classes,
-        facades=facades,
+        facades=facades, clouds=tuple(clouds),
     )  # fmt: skip
 
 

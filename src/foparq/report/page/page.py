@@ -16,6 +16,7 @@ from foparq.model.plane import Plane
 from foparq.report.contract import contract_facts
 from foparq.report.page.bar import scale_bar
 from foparq.report.page.breaks import breakable
+from foparq.report.page.clouds import CloudView, cloud_views
 from foparq.report.page.completeness import CompletenessView, FeatureNumber, completeness_view, feature_numbers
 from foparq.report.page.coverage import LookedAt, coverage
 from foparq.report.page.drawing import GROUPS, Picture, picture_of
@@ -59,6 +60,7 @@ class View:
     contract: tuple[tuple[str, str], ...]  #: what the manifest states of it, name and value
     elements: tuple[ElementView, ...]
     residuals: tuple[ResidualsView, ...]
+    clouds: tuple[CloudView, ...]  #: references against meshes
     completeness: CompletenessView | None  #: none where nothing was compared
     figures: tuple[FigureView, ...]
     plates: tuple[PlateView, ...]
@@ -139,6 +141,7 @@ def _view(
         headline=headline(words, record, listing.groups, suffix),
         elements=elements,
         residuals=residual_views(words, record, pictures),
+        clouds=cloud_views(words, record.quality),
         completeness=completeness_view(words, record.quality),
         figures=tuple(_figure(words, record, listing, picture, plates, suffix) for picture in pictures),
         plates=tuple(plate_view(words, plate) for plate in plates.plates),

@@ -29,7 +29,8 @@ from foparq.report.words import Words, printable
 #: an element that leaves the question open
 OPEN = frozenset({ElementStatus.UNDECIDED, ElementStatus.NOT_ASSESSED})
 TAKEN_IN = frozenset({SourceStatus.READ, SourceStatus.RECOVERED})
-_COUNTED = frozenset({"drawing", "mesh", "checkpoints", "distances", "features"})  #: roles whose items or rows are told
+#: roles whose items or rows are told
+_COUNTED = frozenset({"drawing", "mesh", "reference", "checkpoints", "distances", "features"})
 _OTHER_RATES = frozenset({"rate-least", "rate-most"})  #: of completeness, by the other reading of the drawings
 _FILES_NAMED = 3
 

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Clouds of points that a delivery is compared with."""
