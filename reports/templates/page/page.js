@@ -58,7 +58,8 @@
       return [view.x + (event.clientX - box.left) / box.width * view.w, view.y + (event.clientY - box.top) / box.height * view.h];
     };
     const reset = () => { Object.assign(view, whole); show(); };
-    const look = (x, y, half) => {
+    const look = (mark) => {
+      const [x, y, half] = [mark.dataset.x, mark.dataset.y, mark.dataset.window].map(Number);
       Object.assign(view, { w: 2 * half, h: 2 * half * whole.h / whole.w });
       Object.assign(view, { x: x - view.w / 2, y: y - view.h / 2 });
       show();
@@ -131,11 +132,8 @@
     here(target);
     const fold = target.closest(".rest") && target.closest("article").querySelector(".unfold");
     if (fold) fold.checked = true;
-    if (mark) {
-      const svg = target.closest("svg");
-      svg.look(Number(target.dataset.x), Number(target.dataset.y), Number(target.dataset.window));
-    }
-    (mark ? target.closest("figure") : target).scrollIntoView({ behavior: calm.matches ? "auto" : "smooth", block: mark ? "nearest" : "center" });
+    if (mark) target.closest("svg").look(target);
+    (mark ? target.closest(".stage, figure") : target).scrollIntoView({ behavior: calm.matches ? "auto" : "smooth", block: mark ? "nearest" : "center" });
     if (mark) target.focus({ preventScroll: true });
     else (target.querySelector(".to-mark") || target).focus({ preventScroll: true });
     if (!keep) history.pushState(null, "", hash);

@@ -74,6 +74,7 @@ class Mesh(Part):
     closed: bool | None = None  #: whether the surface has no rim; ``None`` if nobody states it
     rims: int | None = None  #: how many rims it has; ``None`` if nobody states it
     facade: str = ""
+    up: str = ""  #: axis that points up, as stated: ``"x"``, ``"y"`` or ``"z"``; ``""`` if nobody states it
     confirmed: frozenset[str] = frozenset()  #: what a person confirmed of it: ``unit``
 
     @property

@@ -82,7 +82,7 @@ class MeshSection(Strict):
         None  #: how many; left out: one, if it is not closed
     )
     facade: str = ""  #: kept, not assessed yet
-    up: Literal["x", "y", "z"] | None = None  #: axis that points up; kept, not used yet
+    up: Literal["x", "y", "z"] | None = None  #: axis that points up in pictures
 
     @field_validator("rims")
     @classmethod

@@ -46,7 +46,7 @@ def take_mesh(
                 path=name, points=raw.points, corners=raw.corners, starts=raw.starts, group=raw.group,
                 groups=raw.groups, texture=raw.texture, reading=raw.reading, unit=_unit(raw.reading, section.unit),
                 closed=False if section.rims else section.closed, rims=section.rims, facade=section.facade,
-                confirmed=frozenset(one.what for one in confirmed if confirms(one, section)),
+                up=section.up or "", confirmed=frozenset(one.what for one in confirmed if confirms(one, section)),
             )
         )  # fmt: skip
     intake.sources.append(source)

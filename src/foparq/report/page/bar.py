@@ -17,12 +17,23 @@ def scale_bar(words: Words, picture: Picture, width: float) -> tuple[float, str]
     width : float, cells
         Of what is shown of the picture.
     """
-    across = width * picture.quantum
+    length, lettering = bar_of(words, width * picture.quantum, known=picture.drawing.unit.metres is not None)
+    return length / (width * picture.quantum), lettering
+
+
+def bar_of(words: Words, across: float, *, known: bool) -> tuple[float, str]:
+    """Length of a scale bar, and its lettering.
+
+    Parameters
+    ----------
+    across : float
+        Of what is shown, metres; units of the file where nobody knows these.
+    known : bool
+        Somebody knows them.
+    """
     decade = 10.0 ** np.floor(np.log10(across / 5))
     length = float(max(step * decade for step in (1, 2, 5) if step * decade <= across / 5))
-    if picture.drawing.unit.metres is None:
-        return length / across, f"{length:g} {words('report.drawing.unit-bar')}"
-    return length / across, bar_text(words, length)
+    return length, bar_text(words, length) if known else f"{length:g} {words('report.drawing.unit-bar')}"
 
 
 def bar_text(words: Words, metres: float) -> str:

@@ -47,7 +47,8 @@ class RowView:
 
     number: int
     anchor: str
-    mark: str  #: anchor of its mark in the drawing; ``""`` if it has no place
+    mark: str  #: anchor of its mark in the drawing, or of the figure of its mesh; ``""`` if it has no place
+    solid: int  #: number of the figure of its mesh; 0 if it is of a drawing, or its mesh is not shown
     plate: str  #: number of the plate that bears its number; ``""`` if none does
     place: str
     source: str
@@ -138,6 +139,7 @@ class Listing:
     drawings: dict[str, Drawing]
     ways: Callable[[Index], tuple[list[str], list[str]]]  #: how to find the items of some rows
     on_plate: Mapping[int, int] = field(default_factory=dict)  #: row to the plate that bears its number
+    solids: Mapping[str, int] = field(default_factory=dict)  #: path of a mesh that is shown to the number of its figure
 
 
 def listing_of(record: AuditRecord) -> Listing:
@@ -225,12 +227,15 @@ def _row_view(words: Words, listing: Listing, row: int, number: int, suffix: str
     findings = listing.findings
     name = listing.names[row]
     marked = bool(np.isfinite(listing.sheet[row]).all()) and findings.source[row] in listing.drawings
+    solid = listing.solids.get(str(findings.source[row]), 0) if np.isfinite(listing.spots[row]).all() else 0
+    mark = f"solid-{solid}{suffix}" if solid else f"m-{name}{suffix}" if marked else ""
     size = float(findings.size[row])
     counted_once = findings.unit[row] == "items" and size == 1
     return RowView(
         number=number,
         anchor=f"f-{name}{suffix}",
-        mark=f"m-{name}{suffix}" if marked else "",
+        mark=mark,
+        solid=solid,
         plate=str(listing.on_plate.get(row, "")),
         place=_place(listing, row),
         source=printable(str(findings.source[row])),

@@ -2,7 +2,7 @@
 """What a plate bears beside linework: signs, numbers, the lines between them, and frames of details."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -53,6 +53,10 @@ class Ink:
     def empty(self) -> bool:
         """Nothing to draw."""
         return not (self.signs or self.frames)
+
+    def with_signs(self, spots: Reals, severity: Texts, unit: float) -> "Ink":
+        """The same with signs at other spots (n, 2), with or without number."""
+        return replace(self, signs=signs_of(spots, severity, unit))
 
 
 NOTHING = np.empty((0, 4))

@@ -22,6 +22,7 @@ from foparq.report.page.coverage import LookedAt, coverage
 from foparq.report.page.drawing import GROUPS, Picture, picture_of
 from foparq.report.page.findings import FIRST, GroupView, Listing, group_view, listing_of, shown_rows
 from foparq.report.page.marks import MarkView, mark_views
+from foparq.report.page.meshes.figure import MeshFigure, MeshFigureView, mesh_figures, mesh_view
 from foparq.report.page.plate_views import PlateView, on_paper, plate_view
 from foparq.report.page.plates import Plates, plates_of
 from foparq.report.page.residuals import ResidualsView, Vector, residual_views, vectors
@@ -31,6 +32,7 @@ from foparq.report.sentences import class_word
 from foparq.report.templates import environment, shipped_text
 from foparq.report.words import LANGUAGES, MINUS, Words, printable
 
+_SPACE = ("vendor/three.min.js", "solid.js")  #: scripts of meshes; page.js, which follows marks, comes last
 _ALONG = 1e-6  #: from one: a direction is that of an axis
 
 
@@ -63,6 +65,7 @@ class View:
     clouds: tuple[CloudView, ...]  #: references against meshes
     completeness: CompletenessView | None  #: none where nothing was compared
     figures: tuple[FigureView, ...]
+    solids: tuple[MeshFigureView, ...]
     plates: tuple[PlateView, ...]
     faults: tuple[GroupView, ...]
     notes: tuple[GroupView, ...]
@@ -97,9 +100,11 @@ def page(record: AuditRecord) -> str:
             for number, drawing in enumerate(record.delivery.drawings, start=1)
         )
         plates = plates_of(listing, pictures)
-    listing = replace(listing, on_plate=plates.of_row)
+        solids = mesh_figures(record.delivery.meshes, listing)
+    placed = {solid.mesh.path: solid.number for solid in solids if solid.pictures}
+    listing = replace(listing, on_plate=plates.of_row, solids=placed)
     languages = sorted(LANGUAGES, key=lambda language: language != record.language)
-    views = [_view(record, listing, pictures, plates, language, languages[0]) for language in languages]
+    views = [_view(record, listing, pictures, plates, solids, language, languages[0]) for language in languages]
     return (
         environment("page")
         .get_template("page.html.j2")
@@ -112,8 +117,9 @@ def page(record: AuditRecord) -> str:
             first=FIRST,
             severities=[severity.value for severity in Severity],
             groups=GROUPS,
-            style_hash=_hash("page.css"),
-            script_hash=_hash("page.js"),
+            solids=solids,
+            scripts=(*(_SPACE if placed else ()), "page.js"),
+            hash_of=_hash,
             printable=printable,
             breakable=breakable,
             class_word=class_word,
@@ -127,8 +133,9 @@ def _hash(name: str) -> str:
 
 
 def _view(
-    record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], plates: Plates, language: str, first: str
-) -> View:
+    record: AuditRecord, listing: Listing, pictures: tuple[Picture, ...], plates: Plates,
+    solids: tuple[MeshFigure, ...], language: str, first: str,
+) -> View:  # fmt: skip
     words = Words(language)
     elements, looked_at = element_views(words, record), coverage(words, record, pictures)
     suffix = "" if language == first else f"--{language[:2]}"
@@ -144,6 +151,7 @@ def _view(
         clouds=cloud_views(words, record.quality),
         completeness=completeness_view(words, record.quality),
         figures=tuple(_figure(words, record, listing, picture, plates, suffix) for picture in pictures),
+        solids=tuple(mesh_view(words, solid) for solid in solids),
         plates=tuple(plate_view(words, plate) for plate in plates.plates),
         faults=tuple(view(group) for group in listing.groups if group.severity != Severity.NOTE),
         notes=tuple(view(group) for group in listing.groups if group.severity == Severity.NOTE),

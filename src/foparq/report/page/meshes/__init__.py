@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Meshes on the page: the surface that the view in space turns, and six fixed pictures of it."""
