@@ -49,7 +49,7 @@ def test_a_piece_ends_anywhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     assert read(tmp_path, written).points.tolist() == points.tolist()
 
 
-@pytest.mark.parametrize("word", ["nan", "NaN", "-inf", "1.#QNAN", "1e999"])
+@pytest.mark.parametrize("word", ["nan", "NaN", "-inf", "1.#QNAN", "1e999", "1e300"])
 def test_points_without_coordinates_are_counted_and_not_used(word: str, tmp_path: Path) -> None:
     cloud = read(tmp_path, f"0 0 {word}\n1 2 3\n{word} {word} {word}\n")
     assert cloud.points.tolist() == [[1, 2, 3]]
