@@ -12,7 +12,8 @@ class RawCloud:
     """The points of one file."""
 
     points: Coordinates  #: (n, 3) as written, all finite; values of single precision are widened exactly
-    empty: int  #: points of the file of which a coordinate is no number, or beyond any object: counted, not among ``points``
+    #: points of the file of which a coordinate is no number, or beyond any object: counted, not among ``points``
+    empty: int
     version: str  #: ``"PLY binary_little_endian 1.0"``, ``"text"``, ``"LAS 1.2"``
 
 
