@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import laspy
 import pyogrio
 import pyproj
 import pytest
@@ -58,3 +59,4 @@ def test_versions_are_those_of_the_libraries() -> None:
     assert told["GDAL"] == ".".join(map(str, pyogrio.__gdal_version__))
     assert told["PROJ"] == pyproj.proj_version_str
     assert told["pyogrio"] == pyogrio.__version__
+    assert told["laspy"] == laspy.__version__, "of an extra, where it is installed"
