@@ -66,6 +66,9 @@ class Delivery:
     decimals: int = 5
     n: int = 12
     bare: int = 0  #: places of the list that are off the surface
+    tol: str = "0.003"  #: of every place
+    times: int = 1  #: how often what is there is listed
+    rows: tuple[str, ...] = ()  #: further rows of the list
 
 
 def write(made: Delivery, folder: Path) -> Path:
@@ -99,8 +102,10 @@ def write(made: Delivery, folder: Path) -> Path:
         out = places[: made.bare] - places.mean(axis=0)
         places[: made.bare] += 0.02 * out / np.linalg.norm(out, axis=1, keepdims=True)
         places = made.places(places)
-        rows = [[f"F{k}", "relief", *numbers(place, 5), "0.003"] for k, place in enumerate(places)]
-        table(folder / "feicoes.csv", ["id", "class", "x", "y", "z", "tol"], rows)
+        every = [*enumerate(places), *(list(enumerate(places))[made.bare :] * (made.times - 1))]
+        rows = [[f"F{k}", "relief", *numbers(place, 5), made.tol, "required"] for k, (_, place) in enumerate(every)]
+        rows += [row.split(",") for row in made.rows]
+        table(folder / "feicoes.csv", ["id", "class", "x", "y", "z", "tol", "use"], rows)
         spacing = f'spacing = "{made.spacing}"\n' if made.spacing else ""
         manifest.append(f'[features]\npath = "feicoes.csv"\n{spacing}')
     (folder / "delivery.toml").write_text("".join([*manifest, made.more]), encoding="utf-8")

@@ -129,6 +129,14 @@ ATTACKS = {
     "a plate that nobody asked for": Attack(Delivery(surface=with_a_bump), {"Q4"}, "1 piece of surface", "rejected"),
     "a horn that nobody asked for": Attack(Delivery(surface=with_a_horn), {"Q4"}, "1 piece of surface", "rejected"),
     "a list that covers only places": Attack(Delivery(spacing=""), {"Q4"}, "state how far"),
+    "a tolerance that anything meets": Attack(
+        Delivery(surface=other_statue, profile="et-doc-foparq-b", tol="100"), {"Q4", "Q5"}, "at most 10 mm"
+    ),
+    "what is there listed ten times": Attack(Delivery(bare=180, times=10), {"Q4", "Q5"}, "repeat the place"),
+    "a spacing as wide as the object": Attack(Delivery(spacing="1 m"), {"Q4"}, "wider than 50 mm"),
+    "a feature that must not be there": Attack(
+        Delivery(rows=("X1,scaffold,0,0,0.32,0.003,prohibited",)), {"Q4"}, "prohibits 1 feature"
+    ),
     "a spacing that the list does not have": Attack(Delivery(spacing="1 mm"), {"Q4"}, "Correct the spacing"),
 }  # fmt: skip
 

@@ -4,7 +4,7 @@
 from foparq.evaluate.balance import Balance, Incomparable
 from foparq.evaluate.evidence import Evidence, Judgement, judged
 from foparq.evaluate.of_meshes import of_meshes
-from foparq.evaluate.on_meshes import elsewhere_on_meshes, no_mesh
+from foparq.evaluate.on_meshes import list_doubts, no_mesh
 from foparq.evaluate.quality import ElementStatus, Reason, because, some
 from foparq.evaluate.tally import where_broken
 from foparq.findings.because import Because
@@ -69,7 +69,7 @@ def doubtful(evidence: Evidence, name: str) -> tuple[Reason, ...]:
         files = [doubted[path] for path in bound if path in doubted]
         if files:
             why.append(because(message, element=name, files=files))
-    return (*of_meshes(why, evidence), *elsewhere_on_meshes(evidence.counts, name))
+    return (*of_meshes(why, evidence), *list_doubts(evidence.counts, name))
 
 
 def unit_doubts(evidence: Evidence, name: str) -> tuple[Reason, ...]:

@@ -19,13 +19,23 @@ def no_mesh(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     return (because("features.unit-unknown-mesh", element=name, files=unknown),) if unknown else ()
 
 
-def elsewhere_on_meshes(counts: FeatureCounts | None, name: str) -> tuple[Reason, ...]:
-    """Doubt that a list speaks of the meshes that were delivered: fewer than half of its places lie on them."""
-    if counts is None or not counts.on_meshes or counts.placements is None or not counts.placements.elsewhere:
+def list_doubts(counts: FeatureCounts | None, name: str) -> tuple[Reason, ...]:
+    """Why a list of places says nothing of the meshes that were delivered.
+
+    Fewer than half of its places lie on them, tolerances are so wide that anything would, or places are written twice.
+    """
+    if counts is None or not counts.on_meshes or counts.placements is None:
         return ()
-    lies = counts.placements.lies
-    n, total = int(np.count_nonzero(lies == Listed.THERE)), int(np.count_nonzero(lies != Listed.UNPLACED))
-    return (because("features.elsewhere-mesh", element=name, n=n, total=total),)
+    why = []
+    lies, doubts = counts.placements.lies, counts.doubts
+    if counts.placements.elsewhere:
+        n, total = int(np.count_nonzero(lies == Listed.THERE)), int(np.count_nonzero(lies != Listed.UNPLACED))
+        why.append(because("features.elsewhere-mesh", element=name, n=n, total=total))
+    if doubts is not None and doubts.coarse:
+        why.append(because("features.coarse-mesh", element=name, n=doubts.coarse, tol=(doubts.tol, "m")))
+    if doubts is not None and doubts.repeated:
+        why.append(because("features.repeated-mesh", element=name, n=doubts.repeated))
+    return tuple(why)
 
 
 def openings(evidence: Evidence, name: str) -> tuple[Reason, ...]:
@@ -50,11 +60,20 @@ def unlisted_doubts(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     counts = evidence.counts
     if counts is None or not counts.on_meshes or evidence.confirmation("commission", NO_COMMISSION) is not None:
         return ()
+    told = _prohibited(counts, name)
+    if counts.doubts is not None and counts.doubts.sparse:
+        return (*told, because("commission.sparse", element=name, spacing=(counts.doubts.spacing, "m")))
     if not counts.unlisted:
-        return (because("commission.no-spacing", element=name),)
-    why = [because("commission.too-fine", element=name, file=one.path) for one in counts.unlisted if not one.looked]
+        return (*told, because("commission.no-spacing", element=name))
+    why = [*told]
+    why += [because("commission.too-fine", element=name, file=one.path) for one in counts.unlisted if not one.looked]
     why += [_told("commission.mostly-unlisted", one, name) for one in counts.unlisted if _mostly(one)]
     return tuple(why)
+
+
+def _prohibited(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:
+    n = counts.doubts.prohibited if counts.doubts is not None else 0
+    return (because("commission.prohibited-mesh", element=name, n=n),) if n else ()
 
 
 def unlisted_told(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:
@@ -65,7 +84,7 @@ def unlisted_told(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:
 def confirmed_none(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     """Who answers for it that nothing is on the meshes that is not on the object."""
     counts, one = evidence.counts, evidence.confirmation("commission", NO_COMMISSION)
-    if counts is None or not counts.on_meshes or one is None or counts.unlisted:
+    if counts is None or not counts.on_meshes or one is None:
         return ()
     return (because("commission.confirmed", element=name, by=one.by, reason=one.reason),)
 

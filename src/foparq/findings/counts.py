@@ -88,6 +88,18 @@ class Unlisted:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ListDoubts:
+    """What makes a list of places say less of meshes than it seems to."""
+
+    tol: float  #: a wider tolerance tells features from nothing, metres
+    coarse: int  #: places with a wider one
+    spacing: float  #: so with the spacing of the list, metres
+    sparse: bool  #: it states a wider one
+    repeated: int  #: places that repeat one of the same class
+    prohibited: int  #: rows of features that must not be there: no surface tells
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FeatureCounts:
     """Delivered features by class and facade, n rows ordered by both.
 
@@ -106,6 +118,7 @@ class FeatureCounts:
     found: FoundFeatures = field(default_factory=FoundFeatures.none)  #: of which the counts are made
     placements: Placements | None = None  #: of the list; ``None`` if it gives no places
     on_meshes: bool = False  #: features were looked for on meshes, where nobody can count them
+    doubts: ListDoubts | None = None  #: about the list, where features were looked for on meshes
     unlisted: tuple[Unlisted, ...] = ()  #: a mesh each; none if the list does not state how far apart its places are
 
     def __post_init__(self) -> None:

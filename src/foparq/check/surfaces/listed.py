@@ -8,11 +8,14 @@ import numpy as np
 from foparq.check.surfaces.skin import Skin
 from foparq.check.surfaces.unlisted import unlisted
 from foparq.columns import Flags, Index, Reals, Texts
-from foparq.findings.counts import FeatureCounts, Listed, Placements, Unlisted
+from foparq.findings.counts import FeatureCounts, ListDoubts, Listed, Placements, Unlisted
 from foparq.match.assign import UNASSIGNED
 from foparq.model.mesh import Mesh
 from foparq.model.tables import FeatureList
 from foparq.names import folded, of_kind
+
+_SAME = 1e-6  #: metres: what is nearer is one place, written twice
+_SPARSE = 5.0  #: times the widest tolerance, that places of a list may lie apart
 
 
 def count_on_surfaces(meshes: Sequence[Mesh], *, features: FeatureList | None, near: float) -> FeatureCounts | None:
@@ -26,7 +29,8 @@ def count_on_surfaces(meshes: Sequence[Mesh], *, features: FeatureList | None, n
     features : FeatureList or None
         Places in the axes of the meshes, metres. Prohibited features are left out: a surface may lie where they would.
     near : float, metres
-        Tolerance where the list states none.
+        Tolerance where the list states none, and the widest with which a place tells anything. A spacing may be five
+        times as wide.
 
     Returns
     -------
@@ -53,7 +57,20 @@ def count_on_surfaces(meshes: Sequence[Mesh], *, features: FeatureList | None, n
     placements = Placements(lies=lies.astype(object), row=np.full(len(lies), UNASSIGNED, dtype=np.intp))
     return FeatureCounts(
         feature_class=names, facade=facades, count=count, on_meshes=True, placements=placements,
+        doubts=_doubts(features, asked, near),
         unlisted=() if placements.elsewhere else _beyond(skins, features, asked, np.where(there, 0.0, gap)),
+    )  # fmt: skip
+
+
+def _doubts(features: FeatureList, asked: Flags, near: float) -> ListDoubts:
+    place, spacing = features.place[asked], _SPARSE * near
+    kind = np.unique([of_kind(str(name)) for name in features.feature_class[asked]], return_inverse=True)[1]
+    distinct = np.unique(np.column_stack([np.round(place / _SAME), kind.reshape(-1)]), axis=0)
+    stated = features.spacing
+    return ListDoubts(
+        tol=near, coarse=int(np.count_nonzero(features.tol[asked] > near)), spacing=spacing,
+        sparse=stated is not None and stated > spacing, repeated=len(place) - len(distinct),
+        prohibited=int(np.count_nonzero(features.use == "prohibited")),
     )  # fmt: skip
 
 

@@ -26,7 +26,7 @@ def places_of(sheet: Sheet) -> tuple[Reals, Reals]:
     Raises
     ------
     UnreadableError
-        If a cell is no number, or both decimal signs occur.
+        If a cell is no number, both decimal signs occur, or a tolerance is not positive.
 
     Notes
     -----
@@ -38,4 +38,7 @@ def places_of(sheet: Sheet) -> tuple[Reals, Reals]:
         said = unit_in_header(sheet.header[sheet.at[column]]) if column in sheet.at else ""
         found[column] = lengths_of(sheet, column, parse_length_unit(said or "m"), required=False)[0]
     one_decimal_sign(sheet, _COLUMNS)
+    wrong = np.flatnonzero(found["tol"] <= 0)
+    if len(wrong):
+        raise sheet.fault("table.not-positive", int(wrong[0]), "tol", example="0.01")
     return np.column_stack([found["x"], found["y"], found["z"]]), found["tol"]
