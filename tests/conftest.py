@@ -32,6 +32,9 @@ def forget_stale() -> None:
 
 
 forget_stale()
+if "PYTEST_XDIST_WORKER" in os.environ:
+    # Tests that run side by side are told a width of lines, though nobody watches.
+    os.environ.pop("COLUMNS", None)
 
 
 def pytest_report_header() -> list[str]:
@@ -74,26 +77,29 @@ def has_shelf() -> bool:
     return (SHELF / "data").is_dir()
 
 
-def not_run(session: pytest.Session) -> int:
-    """Number of tests that were to run and had no shelf to read."""
-    return 0 if has_shelf() else sum(item.get_closest_marker("shared") is not None for item in session.items)
+#: tests that were to run and had no shelf to read; reports come here from whatever process ran them
+_not_run: set[str] = set()
+
+
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    """Keep which tests of the shelf were skipped for its absence."""
+    if report.skipped and "shared" in report.keywords and not has_shelf():
+        _not_run.add(report.nodeid)
 
 
 def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
     """A run that is relied on is not green without the shelf."""
-    if EXPECTED and exitstatus == pytest.ExitCode.OK and not_run(session) and not session.config.option.collectonly:
+    if EXPECTED and exitstatus == pytest.ExitCode.OK and _not_run:
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
 
 
 @pytest.hookimpl(trylast=True)
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Say loudly what was not tested."""
-    session = terminalreporter._session
-    missed = not_run(session) if session is not None and hasattr(session, "items") else 0
-    if missed:
+    if _not_run:
         terminalreporter.section("shared shelf", red=True, bold=True)
         terminalreporter.line(
-            f"{missed} tests of the shared shelf were NOT run: no shelf at {SHELF}. FOPARQ_SHARED names its folder; "
-            "FOPARQ_SHARED=none says that it is meant.",
+            f"{len(_not_run)} tests of the shared shelf were NOT run: no shelf at {SHELF}. "
+            "FOPARQ_SHARED names its folder; FOPARQ_SHARED=none says that it is meant.",
             red=True,
         )

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import foparq.audit as module
+from foparq import bounded
 from foparq.audit import Audit, audit
 from foparq.evaluate.quality import ElementStatus, Verdict
 from foparq.profile.load import load_profile
@@ -37,7 +38,7 @@ def assert_open(done: Audit, message: str) -> None:
 
 
 def test_a_count_that_crashes(repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "count_listed", crashing)
+    monkeypatch.setattr(module, "listed_in", crashing)
     done = audited(repository, tmp_path)
     assert_open(done, "features.crashed")
     assert "planted" in done.log[0]
@@ -45,8 +46,8 @@ def test_a_count_that_crashes(repository: Path, tmp_path: Path, monkeypatch: pyt
 
 def test_a_count_without_end(repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     profile = load_profile("et-doc-foparq-a")
-    monkeypatch.setattr(module, "budget_of", lambda *_: module.Budget(1.0, 1.0, profile.limits.check_memory))
-    monkeypatch.setattr(module, "count_listed", endless)
+    monkeypatch.setattr(bounded, "budget_of", lambda *_: bounded.Budget(1.0, 1.0, profile.limits.check_memory))
+    monkeypatch.setattr(module, "listed_in", endless)
     done = audited(repository, tmp_path)
     assert_open(done, "features.limit")
     assert done.log == ()

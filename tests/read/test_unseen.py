@@ -140,7 +140,7 @@ def test_what_shows_no_linework_leaves_nothing_open() -> None:
     closed = {reason.value for reason in SkippedReason if not reason.opens}
     assert closed == {
         "above-header", "attributes", "degenerate", "ignored-layer", "image", "infinite-line", "lines-and-points",
-        "materials", "no-geometry", "no-surface",
+        "materials", "no-coordinates", "no-geometry", "no-surface",
         "not-asked", "not-plotted", "ole", "paper-space", "point-symbol", "raster", "trigger", "unlisted-geometry",
         "unlisted-view", "unlisted-virtual-table", "viewport", "wipeout", "xclip-ignored",
     }  # fmt: skip
