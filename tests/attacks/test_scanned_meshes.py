@@ -10,6 +10,8 @@ import jsonschema
 import numpy as np
 import pytest
 from lxml import etree
+from tests.attacks.mesh_deliveries import sound_drawing
+from tests.attacks.meshes import write_ply
 from tests.attacks.surveyed_meshes import Answer, Delivery, head, triangles, without, write
 from tests.mesh.files import Mesh
 from tests.read.cloud.files import las, ply
@@ -246,3 +248,32 @@ def test_init_takes_notes_and_short_tables_for_no_cloud(tmp_path: Path) -> None:
     (folder / "numeros.txt").write_text("1 2 3\n" * 20, encoding="utf-8")
     assert run(["init", str(folder)]) == 0
     assert load_manifest(folder / "delivery.toml").reference == ()
+
+
+def test_of_several_references_the_worst_one_is_the_value(tmp_path: Path) -> None:
+    other = REFERENCE.replace("nuvem.xyz", "outra.xyz").replace("0.5 mm", "5 mm")
+    for name, first, second in (("a", 0.002, 0.0005), ("b", 0.0005, 0.002)):
+        folder = write(Delivery(more=REFERENCE + other), tmp_path / name)
+        np.savetxt(folder / "nuvem.xyz", scan(head(), noise=first), fmt="%.6f")
+        np.savetxt(folder / "outra.xyz", scan(head(), 3000, noise=second), fmt="%.6f")
+        with unguarded():
+            found = Answer(audit(folder).record)
+        told = found.element("C2M")
+        assert (told.value, told.n) == (pytest.approx(0.002, rel=0.1), 6000 if name == "a" else 3000)
+        assert [one.path for one in found.record.quality.clouds] == ["nuvem.xyz", "outra.xyz"]
+        coarse = [line for line in why(found).split("\n") if "are not known well enough" in line]
+        assert len(coarse) == 1, "1.96 times 5 mm is more than the limit, 1.96 times 0.5 mm is not"
+        assert "outra.xyz" in coarse[0]
+
+
+def test_beside_drawings_omission_is_theirs(tmp_path: Path) -> None:
+    folder = sound_drawing(tmp_path / "d")
+    write_ply(head(), folder / "busto.ply")
+    np.savetxt(folder / "nuvem.xyz", np.concatenate([scan(head()), np.full((50, 3), 2.0)]), fmt="%.6f")
+    with (folder / "delivery.toml").open("a", encoding="utf-8") as manifest:
+        manifest.write(f'\n[[mesh]]\npath = "busto.ply"\nunit = "m"\nclosed = false\n\n{REFERENCE}')
+    with unguarded():
+        found = Answer(audit(folder).record)
+    assert found.element("C2M").status is ElementStatus.REPORTED
+    assert "50) are farther than" in why(found)
+    assert "may be missing" not in why(found, "Q5")
