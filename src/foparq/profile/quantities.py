@@ -17,15 +17,29 @@ def _quantity(symbol: str) -> BeforeValidator:
 Length = Annotated[Quantity, _quantity("m")]
 
 
+_EXAMPLE = "3 mm"  #: of a length that is none on the sheet
+
+
 def _on_object(text: object) -> Quantity:
-    length = text if isinstance(text, Quantity) else parse_quantity(text, "m")
+    try:
+        length = text if isinstance(text, Quantity) else parse_quantity(text, "m")
+    except QuantityError as wrong:
+        raise QuantityError(wrong.message, **{**wrong.fields, "example": _EXAMPLE}) from None
     if length.at_scale:
-        raise QuantityError("quantity.on-sheet", value=str(text), example="3 mm")
+        raise QuantityError("quantity.on-sheet", value=str(text), example=_EXAMPLE)
+    return length
+
+
+def _of_some_length(text: object) -> Quantity:
+    length = _on_object(text)
+    if not length.si() > 0.0:
+        raise QuantityError("quantity.not-positive", value=str(text), example=_EXAMPLE)
     return length
 
 
 #: what is measured on the object itself: a length on the sheet says nothing of it
 LengthOnObject = Annotated[Quantity, BeforeValidator(_on_object)]
+PositiveOnObject = Annotated[Quantity, BeforeValidator(_of_some_length)]
 Angle = Annotated[Quantity, _quantity("rad")]
 Ratio = Annotated[Quantity, _quantity("1")]
 Area = Annotated[Quantity, _quantity("m2")]
