@@ -69,6 +69,9 @@ class Delivery:
     tol: str = "0.003"  #: of every place
     times: int = 1  #: how often what is there is listed
     rows: tuple[str, ...] = ()  #: further rows of the list
+    listed: int = 5  #: decimals of the places of the list
+    file: str = "busto.ply"
+    save: Callable[[Mesh, Path], object] = write_ply
 
 
 def write(made: Delivery, folder: Path) -> Path:
@@ -78,10 +81,10 @@ def write(made: Delivery, folder: Path) -> Path:
     pick = rng.choice(len(truth), made.n, replace=False)
     at = np.einsum("ij,ijk->ik", rng.dirichlet([1.0, 1.0, 1.0], made.n), truth[pick])
     surveyed, told = at + rng.normal(0, 0.001, at.shape), made.told(at)
-    write_ply(replace_points(made.surface(), made.points), folder / "busto.ply")
+    made.save(replace_points(made.surface(), made.points), folder / made.file)
     manifest = [
         f'[delivery]\ntitle = "Busto"\nprofile = "{made.profile}"\nscale = "1:10"\n',
-        f'[[mesh]]\npath = "busto.ply"\nunit = "{made.unit}"\nclosed = false\n',
+        f'[[mesh]]\npath = "{made.file}"\nunit = "{made.unit}"\nclosed = false\n',
     ]
     if "checkpoints" in made.tables:
         rows = [[f"P{k}", *numbers(surveyed[k], 4), *(numbers(told[k], made.decimals))] for k in range(made.n)]
@@ -103,7 +106,8 @@ def write(made: Delivery, folder: Path) -> Path:
         places[: made.bare] += 0.02 * out / np.linalg.norm(out, axis=1, keepdims=True)
         places = made.places(places)
         every = [*enumerate(places), *(list(enumerate(places))[made.bare :] * (made.times - 1))]
-        rows = [[f"F{k}", "relief", *numbers(place, 5), made.tol, "required"] for k, (_, place) in enumerate(every)]
+        told = [numbers(place, made.listed) for _, place in every]
+        rows = [[f"F{k}", "relief", *place, made.tol, "required"] for k, place in enumerate(told)]
         rows += [row.split(",") for row in made.rows]
         table(folder / "feicoes.csv", ["id", "class", "x", "y", "z", "tol", "use"], rows)
         spacing = f'spacing = "{made.spacing}"\n' if made.spacing else ""

@@ -22,7 +22,8 @@ def no_mesh(evidence: Evidence, name: str) -> tuple[Reason, ...]:
 def list_doubts(counts: FeatureCounts | None, name: str) -> tuple[Reason, ...]:
     """Why a list of places says nothing of the meshes that were delivered.
 
-    Fewer than half of its places lie on them, tolerances are so wide that anything would, or places are written twice.
+    Fewer than half of its places lie on them, tolerances are so wide that anything would, digits are so few that nobody
+    knows what does, or places are written twice.
     """
     if counts is None or not counts.on_meshes or counts.placements is None:
         return ()
@@ -33,6 +34,8 @@ def list_doubts(counts: FeatureCounts | None, name: str) -> tuple[Reason, ...]:
         why.append(because("features.elsewhere-mesh", element=name, n=n, total=total))
     if doubts is not None and doubts.coarse:
         why.append(because("features.coarse-mesh", element=name, n=doubts.coarse, tol=(doubts.tol, "m")))
+    if doubts is not None and doubts.rounded > doubts.tol:
+        why.append(because("features.rounded-mesh", element=name, off=(doubts.rounded, "m"), tol=(doubts.tol, "m")))
     if doubts is not None and doubts.repeated:
         why.append(because("features.repeated-mesh", element=name, n=doubts.repeated))
     return tuple(why)
@@ -58,17 +61,19 @@ def surplus_on_meshes(counts: FeatureCounts) -> int:
 def unlisted_doubts(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     """Why nobody knows what is on the meshes beyond the list, and remarks on it."""
     counts = evidence.counts
-    if counts is None or not counts.on_meshes or evidence.confirmation("commission", NO_COMMISSION) is not None:
+    if counts is None or not counts.on_meshes:
         return ()
+    # A spacing that most of a mesh contradicts is wrong, whoever answers for what is on the mesh.
+    wrong = tuple(_told("commission.mostly-unlisted", one, name) for one in counts.unlisted if _mostly(one))
+    if evidence.confirmation("commission", NO_COMMISSION) is not None:
+        return wrong
     told = _prohibited(counts, name)
     if counts.doubts is not None and counts.doubts.sparse:
         return (*told, because("commission.sparse", element=name, spacing=(counts.doubts.spacing, "m")))
     if not counts.unlisted:
         return (*told, because("commission.no-spacing", element=name))
-    why = [*told]
-    why += [because("commission.too-fine", element=name, file=one.path) for one in counts.unlisted if not one.looked]
-    why += [_told("commission.mostly-unlisted", one, name) for one in counts.unlisted if _mostly(one)]
-    return tuple(why)
+    fine = (because("commission.too-fine", element=name, file=one.path) for one in counts.unlisted if not one.looked)
+    return (*told, *fine, *wrong)
 
 
 def _prohibited(counts: FeatureCounts, name: str) -> tuple[Reason, ...]:

@@ -18,7 +18,7 @@ from foparq.evaluate.quality import Reason, because, some
 from foparq.evaluate.reference import other_coordinates, other_lengths
 from foparq.findings.because import Because
 from foparq.findings.ties import DistanceTies, Ends, Lies, PointTies
-from foparq.match.causes import Cause
+from foparq.match.causes import Y_UP, Cause
 from foparq.model.tables import Checkpoints, Distances
 from foparq.names import folded
 from foparq.profile.elements import AXES
@@ -210,9 +210,15 @@ _CAUSES = {
 
 
 def _explained(cause: Cause, file: str, name: str, n: int) -> Reason:
-    axes = [f"{AXES[k]} = {AXES[own]}" for k, own in enumerate(cause.axes) if own != k]
+    axes = [
+        f"{AXES[k]} = {'' if sign > 0 else '-'}{AXES[own]}"
+        for k, (own, sign) in enumerate(zip(cause.axes, cause.signs, strict=True))
+        if own != k or sign < 0
+    ]
     right, up, depth = ((length, "m") for length in cause.shift)
     message = "evidence.cause-unit-axes" if cause.kind == "unit" and axes else _CAUSES[cause.kind, cause.along]
+    if cause.kind == "axes" and (cause.axes, cause.signs) == Y_UP:
+        message = "evidence.cause-up"
     return because(
         message, element=name, n=n, file=file, axes=axes, factor=f"{cause.factor:.6g}", right=right, up=up, depth=depth,
         along=cause.along,

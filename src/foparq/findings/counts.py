@@ -93,6 +93,7 @@ class ListDoubts:
 
     tol: float  #: a wider tolerance tells features from nothing, metres
     coarse: int  #: places with a wider one
+    rounded: float  #: what the printed digits of the places may hide, metres
     spacing: float  #: so with the spacing of the list, metres
     sparse: bool  #: it states a wider one
     repeated: int  #: places that repeat one of the same class
@@ -118,6 +119,7 @@ class FeatureCounts:
     found: FoundFeatures = field(default_factory=FoundFeatures.none)  #: of which the counts are made
     placements: Placements | None = None  #: of the list; ``None`` if it gives no places
     on_meshes: bool = False  #: features were looked for on meshes, where nobody can count them
+    places_on: tuple[tuple[str, int], ...] = ()  #: meshes, and how many places of the list lie on each
     doubts: ListDoubts | None = None  #: about the list, where features were looked for on meshes
     unlisted: tuple[Unlisted, ...] = ()  #: a mesh each; none if the list does not state how far apart its places are
 

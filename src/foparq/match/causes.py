@@ -5,7 +5,7 @@ Each search proposes a transformation of the points; whoever calls asks whether 
 """
 
 from collections.abc import Callable, Iterator
-from itertools import combinations, permutations
+from itertools import combinations, permutations, product
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +14,7 @@ from foparq.columns import Coordinates, Flags, Index, Reals
 from foparq.units import LENGTHS
 
 Holds = Callable[[Coordinates], Flags]  #: whether the linework holds points (n, 3), as (n,)
+_Axes = tuple[int, int, int]
 HoldsEnlarged = Callable[[Coordinates, float], Flags]  #: the same of points that were multiplied by a factor
 
 _FEWEST = 3  #: two points fit anywhere
@@ -29,17 +30,34 @@ UNIT_FACTORS = tuple(
 )
 
 
+def _ways() -> Iterator[tuple[_Axes, _Axes]]:
+    """Axes and signs: exchanges without a change of sign, then the turns by quarters that need some."""
+    every = [(x, y, z) for x, y, z in permutations(range(3))]
+    for axes in every:
+        yield axes, (1, 1, 1)
+    for axes, (x, y, z) in product(every, list(product((1, -1), repeat=3))[1:]):
+        if np.linalg.det(np.eye(3)[list(axes)]) * x * y * z > 0:
+            yield axes, (x, y, z)
+
+
+_WAYS = tuple(_ways())
+Y_UP = ((0, 2, 1), (1, 1, -1))  #: axes and signs of a table that is z up, and a file that is y up
+
+
 class Cause(NamedTuple):
     """What was done to the points, so that they lie beside the linework."""
 
     kind: str  #: ``axes``, ``unit``, ``mirror``, ``shift`` or ``scale``
-    axes: tuple[int, int, int] = (0, 1, 2)  #: of ``axes``: column of the table that holds the drawing's axis
+    axes: _Axes = (0, 1, 2)  #: of ``axes`` and ``unit``: column of the table that holds the axis of the drawing
+    signs: _Axes = (1, 1, 1)  #: of these: -1 where it holds the opposite of it
     factor: float = 1.0  #: of ``unit`` and ``scale``: linework over points
     along: str = ""  #: of ``mirror`` and ``scale``: ``right``, ``up``, or ``""`` for all
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)  #: linework minus points, right, up, depth
 
 
-def by_axes_or_unit(points: Coordinates, factors: tuple[float, ...], holds: HoldsEnlarged) -> Cause | None:
+def by_axes_or_unit(
+    points: Coordinates, factors: tuple[float, ...], holds: HoldsEnlarged, *, turned: bool = False
+) -> Cause | None:
     """Axes of the points exchanged, or another unit, or both.
 
     Parameters
@@ -50,13 +68,17 @@ def by_axes_or_unit(points: Coordinates, factors: tuple[float, ...], holds: Hold
         Factors that a wrong unit can be.
     holds : callable
         Asks for points in the axes of the file, and by how much they were multiplied: so are their errors.
+    turned : bool
+        Quarter turns are tried too: where one axis points up in the table, and another in the file, exchanging them
+        needs a change of sign if nothing is to be mirrored.
     """
     if not _enough(points):
         return None
+    ways = [way for way in _WAYS if turned or way[1] == (1, 1, 1)]
     for factor in (1.0, *factors):
-        for x, y, z in permutations(range(3)):
-            if (factor != 1.0 or (x, y, z) != (0, 1, 2)) and holds(points[:, (x, y, z)] * factor, factor).all():
-                return Cause("axes" if factor == 1.0 else "unit", axes=(x, y, z), factor=factor)
+        for axes, signs in ways:
+            if (factor != 1.0 or (axes, signs) != _WAYS[0]) and holds(points[:, axes] * signs * factor, factor).all():
+                return Cause("axes" if factor == 1.0 else "unit", axes=axes, signs=signs, factor=factor)
     return None
 
 

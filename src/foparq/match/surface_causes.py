@@ -9,11 +9,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from foparq.columns import Coordinates, Reals
+from foparq.columns import Coordinates, Index, Reals
 from foparq.match.causes import Cause
 
 Feet = Callable[[Coordinates], tuple[Coordinates, Coordinates]]  #: nearest places (n, 3), and normals there
 
+_ASKED = 200  #: points that a transformation is found by; all must obey it then
 _STEPS = 60
 _SCALES = (0.5, 2.0)  #: a factor beyond is a unit, not a slip
 _SPARE = 4  #: points beyond the numbers that are fitted: fewer fit anywhere
@@ -43,7 +44,8 @@ def by_fit(points: Coordinates, feet: Feet, *, middle: Reals, within: float) -> 
 
     Notes
     -----
-    Each is tried from where the points are and from the middle of the surface; sixty steps of least squares at most.
+    Each is tried from where the points are and from the middle of the surface; sixty steps of least squares at most,
+    with two hundred points at most.
     """
     n = len(points)
     about = points.mean(axis=0) if n else np.zeros(3)
@@ -66,11 +68,16 @@ def _fitted(
     points: Coordinates, about: Reals, feet: Feet, start: Reals, within: float, *, scaled: bool
 ) -> tuple[float, Reals] | None:
     """Factor and shift (3,) that put all points on the surface."""
-    arms, factor, shift, held = points - about, 1.0, start.copy(), False
-    for _ in range(_STEPS):
+    every, factor, shift, held = points - about, 1.0, start.copy(), False
+    arms = every[spread(len(every))]
+
+    def apart(arms: Coordinates) -> tuple[Coordinates, Coordinates]:
         moved = about + arms * factor + shift
         foot, normal = feet(moved)
-        gap = foot - moved
+        return foot - moved, normal
+
+    for _ in range(_STEPS):
+        gap, normal = apart(arms)
         if not np.isfinite(gap).all() or not _SCALES[0] < factor < _SCALES[1]:
             return None
         held = bool(np.linalg.norm(gap, axis=1).max() <= within)
@@ -78,7 +85,13 @@ def _fitted(
         if np.abs(step[:3]).max() + abs(step[3]) * np.abs(arms).max() < _STILL * within:
             break
         shift, factor = shift + step[:3], factor + float(step[3])
+    held = held and (len(arms) == len(every) or bool(np.linalg.norm(apart(every)[0], axis=1).max() <= within))
     return (factor, shift) if held else None
+
+
+def spread(n: int) -> Index:
+    """Rows of a table of n by which a transformation is found: two hundred at most, evenly over the table."""
+    return np.linspace(0, n - 1, min(n, _ASKED)).astype(np.intp)
 
 
 def _step(normal: Coordinates, arms: Coordinates, gap: Coordinates, *, scaled: bool) -> Reals:

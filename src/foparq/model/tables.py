@@ -77,6 +77,7 @@ class FeatureList:
     #: (n, 3) X, Y, Z of a place on the feature, in axes of the drawing, metres; NaN where not given. Left out: none
     place: Reals = field(default_factory=lambda: np.empty((0, 3)))
     tol: Reals = field(default_factory=lambda: np.empty(0))  #: (n,) how far from it the feature may lie, metres; or NaN
+    printed: Reals = field(default_factory=_exact)  #: (3,) half the last printed digit of ``place``, metres
     #: how far from a place of the list what was asked for may be, metres; ``None`` if nobody states it
     spacing: float | None = None
 

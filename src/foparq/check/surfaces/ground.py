@@ -11,9 +11,10 @@ from foparq.columns import Coordinates, Flags, Index, Reals, Texts
 from foparq.findings.ties import Lies
 from foparq.match.causes import UNIT_FACTORS, Cause, by_axes_or_unit
 from foparq.match.linework import NOTHING, Footing
-from foparq.match.surface_causes import by_fit
+from foparq.match.surface_causes import by_fit, spread
 from foparq.model.mesh import Mesh
 
+_SPECK = 0.05  #: of the diagonal of the surface: places that reach less far show no unit
 _SMALL = 50  #: a piece that is a mark is not larger than so many times what can be seen: 10 mm on the sheet
 
 
@@ -45,15 +46,11 @@ class SurfaceGround(Ground):
     def footing(self, places: Coordinates, within: Reals, printed: Reals | None = None) -> Footing:
         """Faces on which places lie.
 
-        What the printed digits may hide is a box around a place: it lies on the surface if the box, widened by
-        ``within``, reaches the plane through its nearest place.
+        What the printed digits may hide is added as :meth:`foparq.check.surfaces.skin.Foot.hidden` tells it.
         """
         foot = self.skin.foot(places)
         distance = np.where(np.isnan(foot.distance), np.inf, foot.distance)
-        reach = within.copy()
-        if printed is not None:
-            way = np.abs(np.nan_to_num(foot.place - places))
-            reach += np.divide(way @ printed, distance, out=np.zeros(len(way)), where=way.any(axis=1))
+        reach = within if printed is None else within + foot.hidden(places, printed)
         on = distance <= reach
         vertex = np.where(on, foot.vertex, np.inf)
         return Footing(np.where(on, foot.face, NOTHING), distance, vertex, vertex <= reach)
@@ -100,11 +97,17 @@ class SurfaceGround(Ground):
             return None
 
         def holds(moved: Coordinates, factor: float) -> Flags:
-            # What was rounded is enlarged with all else.
-            lies: Flags = self.skin.foot(moved).distance <= within * max(1.0, factor)
+            # A table that a factor shrinks to a speck lies on anything; what was rounded is enlarged with all else.
+            if np.linalg.norm(np.ptp(moved, axis=0)) < _SPECK * self.longest():
+                return np.zeros(len(moved), dtype=bool)
+            lies = np.zeros(len(moved), dtype=bool)
+            for rows in (spread(len(moved)), slice(None)):
+                lies[rows] = self.skin.foot(moved[rows]).distance <= within * max(1.0, factor)
+                if not lies[rows].all():
+                    break
             return lies
 
-        return by_axes_or_unit(places, UNIT_FACTORS, holds) or by_fit(
+        return by_axes_or_unit(places, UNIT_FACTORS, holds, turned=True) or by_fit(
             places, lambda moved: self.skin.foot(moved)[2:4], middle=self._middle, within=within
         )
 

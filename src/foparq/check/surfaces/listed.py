@@ -15,13 +15,14 @@ from foparq.model.tables import FeatureList
 from foparq.names import folded, of_kind
 
 _SAME = 1e-6  #: metres: what is nearer is one place, written twice
-_SPARSE = 5.0  #: times the widest tolerance, that places of a list may lie apart
+_SPARSE = 5.0  #: times the widest tolerance, that places of a list may lie apart, or a surface from what is missing
 
 
 def count_on_surfaces(meshes: Sequence[Mesh], *, features: FeatureList | None, near: float) -> FeatureCounts | None:
     """Look for the features of a list on the meshes of a delivery.
 
-    A listed feature is *there* if the surface of a mesh of its facade lies within its tolerance of its place. Nobody
+    A listed feature is *there* if the surface of a mesh of its facade lies within its tolerance of its place, and what
+    the printed digits of the list may hide. Nobody
     can count the features of a surface: classes and facades of which one feature has no place are left out.
 
     Parameters
@@ -47,18 +48,25 @@ def count_on_surfaces(meshes: Sequence[Mesh], *, features: FeatureList | None, n
         return None
     asked = (features.use != "prohibited") & np.isfinite(features.place).all(axis=1) & (features.count == 1)
     tol = np.where(np.isfinite(features.tol) & (features.tol > 0), features.tol, near)
-    gap = np.full(len(features.id), np.inf)
+    gap, there = np.full(len(features.id), np.inf), np.zeros(len(features.id), dtype=bool)
+    places_on = []
     for skin in skins:
         mine = np.flatnonzero(asked & _of_facade(features.facade, skin.mesh.facade))
-        gap[mine] = np.minimum(gap[mine], skin.foot(features.place[mine]).distance)
-    there = asked & (gap <= tol)
+        foot = skin.foot(features.place[mine])
+        gap[mine] = np.minimum(gap[mine], foot.distance)
+        on = foot.distance <= tol[mine] + foot.hidden(features.place[mine], features.printed)
+        there[mine] |= on
+        places_on.append((skin.mesh.path, int(np.count_nonzero(on))))
     lies = np.where(there, Listed.THERE.value, np.where(asked, Listed.ABSENT.value, Listed.UNPLACED.value))
     names, facades, count = _counts(features, asked, there)
     placements = Placements(lies=lies.astype(object), row=np.full(len(lies), UNASSIGNED, dtype=np.intp))
     return FeatureCounts(
         feature_class=names, facade=facades, count=count, on_meshes=True, placements=placements,
+        places_on=tuple(places_on),
         doubts=_doubts(features, asked, near),
-        unlisted=() if placements.elsewhere else _beyond(skins, features, asked, np.where(there, 0.0, gap)),
+        unlisted=() if placements.elsewhere else _beyond(
+            skins, features, asked, np.where(there, 0.0, gap), _SPARSE * near
+        ),
     )  # fmt: skip
 
 
@@ -68,7 +76,8 @@ def _doubts(features: FeatureList, asked: Flags, near: float) -> ListDoubts:
     distinct = np.unique(np.column_stack([np.round(place / _SAME), kind.reshape(-1)]), axis=0)
     stated = features.spacing
     return ListDoubts(
-        tol=near, coarse=int(np.count_nonzero(features.tol[asked] > near)), spacing=spacing,
+        tol=near, rounded=float(np.linalg.norm(features.printed)), spacing=spacing,
+        coarse=int(np.count_nonzero(features.tol[asked] > near)),
         sparse=stated is not None and stated > spacing, repeated=len(place) - len(distinct),
         prohibited=int(np.count_nonzero(features.use == "prohibited")),
     )  # fmt: skip
@@ -81,13 +90,13 @@ def _of_facade(facades: Texts, own: str) -> Flags:
 
 
 def _counts(features: FeatureList, asked: Flags, there: Flags) -> tuple[Texts, Texts, Index]:
-    """Classes and facades whose features all have places, and how many of them are there."""
+    """Classes and facades whose features all have places, and how many of them are there; prohibited ones have none."""
     keys = [(of_kind(str(c)), folded(str(f))) for c, f in zip(features.feature_class, features.facade, strict=True)]
     needed = features.use != "prohibited"
     loose = {key for key, need, known in zip(keys, needed.tolist(), asked.tolist(), strict=True) if need and not known}
     found: dict[tuple[str, str], tuple[str, str, int]] = {}
     for row, key in enumerate(keys):
-        if key not in loose and needed[row]:
+        if key not in loose:
             name, facade, n = found.get(key, (str(features.feature_class[row]), str(features.facade[row]), 0))
             found[key] = (name, facade, n + int(there[row]))
     rows = [found[key] for key in sorted(found)]
@@ -96,9 +105,13 @@ def _counts(features: FeatureList, asked: Flags, there: Flags) -> tuple[Texts, T
     return names, facades, np.array([row[2] for row in rows], dtype=np.intp)
 
 
-def _beyond(skins: Sequence[Skin], features: FeatureList, asked: Flags, gap: Reals) -> tuple[Unlisted, ...]:
+def _beyond(
+    skins: Sequence[Skin], features: FeatureList, asked: Flags, gap: Reals, most: float
+) -> tuple[Unlisted, ...]:
     """What of each mesh no place of the list explains; nothing where the list states no spacing."""
     if features.spacing is None or not asked.any():
         return ()
-    places, more = features.place[asked], np.nan_to_num(gap[asked], posinf=0.0)
+    # What lies in place of a missing feature is near its place: a screen a metre behind it is something else.
+    more = gap[asked]
+    places, more = features.place[asked], np.where(more <= most, more, 0.0)
     return tuple(unlisted(skin, places, more, spacing=features.spacing) for skin in skins)

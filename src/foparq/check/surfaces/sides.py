@@ -8,7 +8,6 @@ import numpy as np
 from foparq.check.surfaces.skin import Skin
 from foparq.columns import Coordinates, Flags, Index, Reals
 from foparq.findings.clouds import Signs
-from foparq.mesh.weld import welded
 from foparq.mesh.winding import border, winding
 
 _UNSURE = 0.25  #: from a whole number: nearer, the surface goes around a place or does not, whatever its holes
@@ -47,7 +46,7 @@ def sides_of(skin: Skin, places: Coordinates, distance: Reals, mine: Flags, sear
     O(n log f) of a closed surface; with b border edges n b more. Where that is too much, an open surface has no sides.
     """
     rows = np.flatnonzero(mine)
-    corners = welded(skin.points)[skin.shape.triangulation.triangles]
+    corners = skin.shape.triangulation.triangles
     edges = border(corners)
     none = np.empty(0, dtype=np.intp)
     if not len(edges):

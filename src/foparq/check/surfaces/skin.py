@@ -13,9 +13,11 @@ from foparq.mesh.distance import nearest
 from foparq.mesh.polygons import chosen
 from foparq.mesh.predicates import safe
 from foparq.mesh.topology import Topology
+from foparq.mesh.weld import welded
 from foparq.model.mesh import Mesh
 
 _NOWHERE = -1
+_FARTHEST = 1e12  #: metres from the origin: no object lies there
 
 
 class Foot(NamedTuple):
@@ -27,6 +29,18 @@ class Foot(NamedTuple):
     normal: Coordinates  #: (n, 3) of the triangle, of length one; NaN where it has none
     vertex: Reals  #: (n,) from the place asked to the nearest vertex of that triangle
 
+    def hidden(self, places: Coordinates, printed: Reals) -> Reals:
+        """How much of the distances (n,) of places (n, 3) their printed digits may make, metres.
+
+        Parameters
+        ----------
+        printed : (3,) metres
+            Half the last printed digit of each axis: a place may be anywhere in a box of these half sides, and lies on
+            the plane through its nearest place if the box reaches it.
+        """
+        way = np.abs(np.nan_to_num(self.place - places))
+        return np.divide(way @ printed, self.distance, out=np.zeros(len(way)), where=way.any(axis=1))
+
 
 class Skin:
     """Faces of a mesh that can be used, as triangles in metres.
@@ -34,24 +48,26 @@ class Skin:
     Parameters
     ----------
     mesh : Mesh
-        Its unit is known. Polygons that cannot be cut into triangles are left out.
+        Its unit is known. Polygons that cannot be cut into triangles are left out, and faces beyond any object.
 
     Notes
     -----
-    Faces are those as delivered: which vertices are one makes no difference to where the surface lies.
+    Vertices with identical coordinates are one, whatever the profile says: a piece of the texture is no piece of the
+    object. Where the surface lies is the same.
     """
 
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
         self.points = mesh.points * (mesh.unit.metres or 1.0)
         good = mesh.usable.copy()
-        unsafe = ~safe(self.points)
+        unsafe = ~safe(self.points) | (np.abs(self.points) > _FARTHEST).any(axis=1)
         if unsafe.any():
             corner = np.zeros(len(mesh.corners), dtype=bool)
             corner[mesh.there] = unsafe[mesh.corners[mesh.there]]
             good[np.repeat(np.arange(mesh.features), np.diff(mesh.starts))[corner]] = False
         self.rows = np.flatnonzero(good)  #: (k,) faces of the file that it is made of
-        self.shape = Topology(self.points, *chosen(mesh.corners, mesh.starts, self.rows))
+        corners, starts = chosen(mesh.corners, mesh.starts, self.rows)
+        self.shape = Topology(self.points, welded(self.points)[corners], starts)
 
     def __len__(self) -> int:
         return len(self.shape.triangulation.triangles)

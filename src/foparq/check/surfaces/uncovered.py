@@ -3,10 +3,9 @@
 
 import numpy as np
 
+from foparq.check.surfaces.clusters import clusters
 from foparq.columns import Coordinates, Flags, Index, Reals
 from foparq.findings.clouds import Place, Uncovered
-
-_CELLS = 500_000  #: cells that are grouped at most; they are doubled until they are no more
 
 
 def uncovered(points: Coordinates, distance: Reals, away: Flags, search: float, *, grouped: bool) -> Uncovered:
@@ -30,7 +29,7 @@ def uncovered(points: Coordinates, distance: Reals, away: Flags, search: float, 
     rows = np.flatnonzero(away)
     if not len(rows) or not grouped:
         return Uncovered(len(rows))
-    label = _clusters(points[rows], search)
+    label = clusters(points[rows], search)
     sizes = np.bincount(label)
     # Of clusters of one size, that with the point farthest from the surface; of several such, the first in space.
     largest = rows[sizes[label] == sizes.max()]
@@ -48,21 +47,3 @@ def place_of(points: Coordinates, row: int) -> Place:
     """Coordinates of a point."""
     x, y, z = points[row].tolist()
     return x, y, z
-
-
-def _clusters(points: Coordinates, width: float) -> Index:
-    """(n,) number of the cluster of each point."""
-    from scipy.sparse import coo_array  # noqa: PLC0415 - slow to load; only references need it
-    from scipy.sparse.csgraph import connected_components  # noqa: PLC0415 - as above
-    from scipy.spatial import cKDTree  # noqa: PLC0415 - as above
-
-    low = points.min(axis=0)
-    while True:
-        cells, of = np.unique(np.floor((points - low) / width), axis=0, return_inverse=True)
-        if len(cells) <= _CELLS:
-            break
-        width *= 2
-    pairs = cKDTree(cells).query_pairs(1.5, p=np.inf, output_type="ndarray")
-    joined = coo_array((np.ones(len(pairs), dtype=np.int8), pairs.T), shape=(len(cells), len(cells)))
-    label: Index = connected_components(joined, directed=False)[1].astype(np.intp)[of.ravel()]
-    return label

@@ -3,16 +3,18 @@
 
 import numpy as np
 
+from foparq.check.surfaces.clusters import clusters
 from foparq.check.surfaces.skin import Skin
 from foparq.columns import Coordinates, Flags, Index, Reals
 from foparq.findings.counts import Unlisted
+from foparq.mesh.grouping import joined
 from foparq.mesh.polygons import chosen
 from foparq.mesh.topology import Topology
 from foparq.mesh.vectors import lengths
-from foparq.mesh.weld import welded
 
 _MOST = 20_000_000  #: triangles that large faces may be cut into
 _NEIGHBOURS = 8
+_FAR = 2.0  #: times the spacing: what is farther is no border of what the list covers
 _PER_SQUARE = 8  #: about so many are cut for each square of the spacing
 
 
@@ -34,7 +36,8 @@ def unlisted(skin: Skin, places: Coordinates, more: Reals, *, spacing: float) ->
     -------
     Unlisted
         Faces are cut until no side is longer than ``spacing``, and judged by the middles of their parts. Pieces whose
-        unexplained area is less than the square of ``spacing`` are left out.
+        unexplained area is less than the square of ``spacing`` are left out. Pieces that are farther than twice
+        ``spacing`` from every place, and near each other, count as one.
 
     Notes
     -----
@@ -49,6 +52,8 @@ def unlisted(skin: Skin, places: Coordinates, more: Reals, *, spacing: float) ->
     area = np.bincount(owner[strange], weights=size[strange], minlength=len(skin.rows))
     faces = np.flatnonzero(area > 0)
     piece = _pieces(skin, faces)
+    far = strange & (apart > _FAR * spacing) & (area[owner] > 0)
+    piece = _joined(piece, faces, parts[far].mean(axis=1), owner[far], spacing)
     of_piece = np.bincount(piece, weights=area[faces])
     kept = of_piece >= spacing**2
     where = None
@@ -108,5 +113,17 @@ def _pieces(skin: Skin, faces: Index) -> Index:
     """(k,) number of the piece of each of some faces, joined over edges."""
     if not len(faces):
         return faces
-    corners, starts = chosen(skin.shape.corners, skin.shape.starts, faces)
-    return Topology(skin.points, welded(skin.points)[corners], starts).components.label
+    return Topology(skin.points, *chosen(skin.shape.corners, skin.shape.starts, faces)).components.label
+
+
+def _joined(piece: Index, faces: Index, far: Coordinates, owner: Index, spacing: float) -> Index:
+    """(k,) pieces of faces, those that are near each other as one: places of them that are far from the list are."""
+    if not len(far):
+        return piece
+    near = clusters(far, spacing)
+    of = piece[np.searchsorted(faces, owner)]
+    count = int(piece.max()) + 1
+    # A piece may reach into several clusters, and a cluster may hold parts of several pieces.
+    together = joined(count + int(near.max()) + 1, of, count + near)
+    numbers: Index = np.unique(together[piece], return_inverse=True)[1]
+    return numbers

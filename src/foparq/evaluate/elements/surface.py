@@ -138,9 +138,8 @@ def _loose(evidence: Evidence, name: str) -> tuple[Reason, ...]:
     """Remark on meshes of whose size and place no table says anything."""
     told = of_something_else(evidence, name)
     points, counts = evidence.ties.points if evidence.ties else None, evidence.counts
-    if counts is not None and counts.on_meshes and counts.placements is not None and not counts.placements.elsewhere:
-        return told
     held = compared(evidence)
+    held |= {path for path, n in counts.places_on if n >= _COMPARED} if counts is not None else set()
     held |= set(points.drawing.tolist()) if points is not None else set()
     held |= {mesh.path for mesh in evidence.ties.beside if len(mesh.ids) >= _COMPARED} if evidence.ties else set()
     loose = [mesh.path for mesh in evidence.delivery.meshes if mesh.path not in held]

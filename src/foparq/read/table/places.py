@@ -10,10 +10,11 @@ from foparq.read.table.sheet import Sheet
 from foparq.read.table.signs import one_decimal_sign
 from foparq.units import parse_length_unit
 
-_COLUMNS = ("x", "y", "z", "tol")
+_AXES = ("x", "y", "z")
+_COLUMNS = (*_AXES, "tol")
 
 
-def places_of(sheet: Sheet) -> tuple[Reals, Reals]:
+def places_of(sheet: Sheet) -> tuple[Reals, Reals, Reals]:
     """Places of features and how far from them these may lie.
 
     Returns
@@ -22,6 +23,8 @@ def places_of(sheet: Sheet) -> tuple[Reals, Reals]:
         In axes of the drawing; NaN where not given.
     tol : (n,) metres
         NaN where not given.
+    printed : (3,) metres
+        Half the last printed digit of the places, by axis.
 
     Raises
     ------
@@ -33,12 +36,13 @@ def places_of(sheet: Sheet) -> tuple[Reals, Reals]:
     In metres, unless the name of a column carries another unit in brackets. Numbers with one sign and three digits are
     taken for decimals: places that were meant in thousands lie on nothing, and prove nothing.
     """
-    found = {}
+    found, half = {}, {}
     for column in _COLUMNS:
         said = unit_in_header(sheet.header[sheet.at[column]]) if column in sheet.at else ""
-        found[column] = lengths_of(sheet, column, parse_length_unit(said or "m"), required=False)[0]
+        found[column], half[column] = lengths_of(sheet, column, parse_length_unit(said or "m"), required=False)
     one_decimal_sign(sheet, _COLUMNS)
     wrong = np.flatnonzero(found["tol"] <= 0)
     if len(wrong):
         raise sheet.fault("table.not-positive", int(wrong[0]), "tol", example="0.01")
-    return np.column_stack([found["x"], found["y"], found["z"]]), found["tol"]
+    place = np.column_stack([found[axis] for axis in _AXES])
+    return place, found["tol"], np.array([half[axis] for axis in _AXES])

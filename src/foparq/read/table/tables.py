@@ -163,7 +163,7 @@ def read_feature_list(path: Path, section: TableSection | None = None) -> Featur
         unknown, or an accepted omission names no evidence.
     """
     sheet = _sheet(path, _FEATURES, section)
-    place, tol = places_of(sheet)
+    place, tol, printed = places_of(sheet)
     use = [use_of(text) for text in sheet.texts("use")]
     accepted = [text.upper() for text in sheet.texts("omission_accepted")]
     evidence = sheet.texts("evidence")
@@ -190,6 +190,7 @@ def read_feature_list(path: Path, section: TableSection | None = None) -> Featur
         skipped=sheet.skipped,
         place=place,
         tol=tol,
+        printed=printed,
     )
 
 
