@@ -31,6 +31,13 @@ from foparq.profile.load import load_manifest
             3,
             "checkpoints.survey_sd",
         ),
+        (
+            '[checkpoints]\npath = "p.csv"\nsurvey_sd = "-0.3 mm"\n',
+            "quantity.not-positive-at",
+            3,
+            "checkpoints.survey_sd",
+        ),
+        ('[distances]\npath = "p.csv"\nsurvey_sd = "0 mm"\n', "quantity.not-positive-at", 3, "distances.survey_sd"),
     ],
 )
 def test_a_mistake_is_told_with_its_own_key_and_line(

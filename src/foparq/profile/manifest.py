@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BeforeValidator, Field, ValidationInfo, field_validator
 
-from foparq.profile.quantities import LengthOnObject, PositiveOnObject, ScaleText, Strict
+from foparq.profile.quantities import LengthOnObject, ScaleText, Strict
 from foparq.units import parse_length_unit
 
 
@@ -111,7 +111,7 @@ class TableSection(Strict):
 class FeaturesSection(TableSection):
     """``[features]``: the list of specified features."""
 
-    spacing: PositiveOnObject | None = None  #: on a mesh nothing is farther from every place of the list
+    spacing: LengthOnObject | None = None  #: on a mesh nothing is farther from every place of the list
 
 
 class SurveySection(TableSection):

@@ -27,19 +27,13 @@ def _on_object(text: object) -> Quantity:
         raise QuantityError(wrong.message, **{**wrong.fields, "example": _EXAMPLE}) from None
     if length.at_scale:
         raise QuantityError("quantity.on-sheet", value=str(text), example=_EXAMPLE)
-    return length
-
-
-def _of_some_length(text: object) -> Quantity:
-    length = _on_object(text)
     if not length.si() > 0.0:
         raise QuantityError("quantity.not-positive", value=str(text), example=_EXAMPLE)
     return length
 
 
-#: what is measured on the object itself: a length on the sheet says nothing of it
+#: what is measured on the object itself, above zero: a length on the sheet says nothing of it
 LengthOnObject = Annotated[Quantity, BeforeValidator(_on_object)]
-PositiveOnObject = Annotated[Quantity, BeforeValidator(_of_some_length)]
 Angle = Annotated[Quantity, _quantity("rad")]
 Ratio = Annotated[Quantity, _quantity("1")]
 Area = Annotated[Quantity, _quantity("m2")]
