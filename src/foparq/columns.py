@@ -16,20 +16,31 @@ Reals = NDArray[np.float64]
 Texts = NDArray[np.object_]  #: str
 
 
+_CLOSE = 8  #: times the number of rows, that the greatest may be
+
+
 def union(*columns: Index) -> Index:
     """Rows that stand in any of some columns, each once, in order.
 
     Notes
     -----
-    O(n log n) by sorting: ``numpy.unique`` of whole numbers goes through a hash table since numpy 2.3, which takes ten
-    times as long for a million rows.
+    O(n) where rows are in order already, or numbers from 0 that lie close; else O(n log n) by sorting. ``numpy.unique``
+    of whole numbers goes through a hash table since numpy 2.3, which takes ten times as long as sorting a million rows.
 
     Examples
     --------
     >>> union(np.array([3, 1]), np.array([1, 2])).tolist()
     [1, 2, 3]
     """
-    rows: Index = np.sort(np.concatenate([np.empty(0, dtype=np.intp), *columns]))
+    filled = [column for column in columns if len(column)]
+    rows: Index = np.concatenate(filled) if filled else np.empty(0, dtype=np.intp)
+    if (rows[1:] > rows[:-1]).all():
+        return rows
+    if rows.min() >= 0 and rows.max() < _CLOSE * len(rows):
+        there = np.zeros(int(rows.max()) + 1, dtype=bool)
+        there[rows] = True
+        return np.flatnonzero(there)
+    rows.sort()
     first = np.ones(len(rows), dtype=bool)
     first[1:] = rows[1:] != rows[:-1]
     distinct: Index = rows[first]

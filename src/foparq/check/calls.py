@@ -140,7 +140,8 @@ def judged(call: Call, rules: Mapping[str, Rule], outcomes: Sequence[Outcome], s
         aside.append(np.isin(rows.row, at_fault))
     first = subject.take(call.rule.subject, call.layers[0])
     unfit = first.unfit
-    blamed_here = np.intersect1d(union(*blamed.values()), union(first.rows.row), assume_unique=True)
+    blamed_here = union(*blamed.values())
+    blamed_here = blamed_here[np.isin(blamed_here, first.rows.row)]
     unjudged = union(unfit, blamed_here)
     named = _named(subject, unfit, blamed, blamed_here, _telling(call, rules, outcomes))
     return Judged(tuple(inputs), tuple(aside), unjudged, again, named)

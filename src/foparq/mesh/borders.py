@@ -58,6 +58,9 @@ def borders(points: Coordinates, corners: Index, starts: Index, edges: Edges) ->
     edges.
     """
     rows = edges.boundary
+    if not len(rows):
+        none = np.empty(0, dtype=np.intp)
+        return Borders(np.zeros(1, dtype=np.intp), none, none, none, np.empty(0, dtype=bool))
     sides = edges.sides[edges.starts[rows]]
     after = following(starts)
     at = np.stack([sides, after[sides]], axis=1).ravel()  # the corner at each end

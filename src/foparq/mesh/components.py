@@ -7,8 +7,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from foparq.columns import Coordinates, Index, Reals
-from foparq.mesh.edges import Edges, side_links
-from foparq.mesh.grouping import joined, numbered
+from foparq.mesh.edges import Edges, faces_joined
+from foparq.mesh.grouping import numbered
 from foparq.mesh.polygons import blocks, face_of
 from foparq.mesh.vectors import lengths, overflowing
 
@@ -64,18 +64,21 @@ def components(points: Coordinates, corners: Index, starts: Index, edges: Edges,
     Faces that share a vertex only are apart; so is a face fallen in to a line, of which no side bounds.
     O(m log m) at worst, linear on surfaces.
     """
-    face = face_of(starts)
-    one, two = side_links(edges)
-    label, lowest = numbered(joined(len(starts) - 1, face[one], face[two]))
+    label, lowest = numbered(faces_joined(edges, face_of(starts), len(starts) - 1, agreeing=False))
     count = len(lowest)
     faces = np.bincount(label, minlength=count)
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     for first, stop in blocks(starts):
         at = starts[first:stop] - starts[first]
         place = points.take(corners[starts[first] : starts[stop]], axis=0)
+        mine = label[first:stop]
+        if (mine == mine[0]).all():
+            low[mine[0]] = np.minimum(low[mine[0]], place.min(axis=0))
+            high[mine[0]] = np.maximum(high[mine[0]], place.max(axis=0))
+            continue
         for axis in range(3):
-            np.minimum.at(low[:, axis], label[first:stop], np.minimum.reduceat(place[:, axis], at))
-            np.maximum.at(high[:, axis], label[first:stop], np.maximum.reduceat(place[:, axis], at))
+            np.minimum.at(low[:, axis], mine, np.minimum.reduceat(place[:, axis], at))
+            np.maximum.at(high[:, axis], mine, np.maximum.reduceat(place[:, axis], at))
     total = np.bincount(label, area, minlength=count).astype(np.float64)
     return Components(label, lowest, faces, total, low, high)
 

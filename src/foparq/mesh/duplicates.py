@@ -6,13 +6,15 @@ from typing import NamedTuple
 import numpy as np
 
 from foparq.columns import Flags, Index
+from foparq.mesh.compiled import compiled
 from foparq.mesh.grouping import Words, likely_groups, mixed
-from foparq.mesh.polygons import following
 
 #: sides compared in one step
 _SIDES = 2**20
 #: the bit that says which way a side runs
 _WAY = np.uint64(1)
+_HALF = np.uint64(32)  #: bits of a side that hold one vertex
+_NOTHING = np.uint64(0)
 
 
 class Duplicates(NamedTuple):
@@ -78,12 +80,20 @@ def duplicate_faces(corners: Index, starts: Index) -> Duplicates:
 
 def _sums(corners: Index, starts: Index) -> Words:
     """Key (f,) of the sides of every face, whatever their order and direction."""
-    to = corners[following(starts)]
-    side = (np.minimum(corners, to).astype(np.uint64) << np.uint64(32)) ^ np.maximum(corners, to).astype(np.uint64)
-    word = np.where(corners == to, np.uint64(0), mixed(side))
-    if not len(word):
-        return np.zeros(len(starts) - 1, dtype=np.uint64)
-    return mixed(np.add.reduceat(word, starts[:-1]))
+    return mixed(_sums_of_sides(corners.astype(np.uint64), starts))
+
+
+@compiled
+def _sums_of_sides(corners: Words, starts: Index) -> Words:
+    total = np.zeros(len(starts) - 1, dtype=np.uint64)
+    for face in range(len(starts) - 1):
+        here = corners[starts[face + 1] - 1] if starts[face + 1] > starts[face] else _NOTHING
+        for corner in range(starts[face], starts[face + 1]):
+            to = corners[corner]
+            if here != to:
+                total[face] += mixed((min(here, to) << _HALF) ^ max(here, to))
+            here = to
+    return total
 
 
 def _same_sides(corners: Index, starts: Index, one: Index, two: Index) -> tuple[Flags, Flags]:

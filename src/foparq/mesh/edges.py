@@ -6,8 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from foparq.columns import Flags, Index
-from foparq.mesh.grouping import Rows, counting_order, narrow
-from foparq.mesh.polygons import face_of, following
+from foparq.mesh.compiled import compiled
+from foparq.mesh.grouping import join, settle
+from foparq.mesh.polygons import face_of
 
 _PAIR = 2
 _TRIANGLE = 3
@@ -25,6 +26,10 @@ class Edges(NamedTuple):
     sides: Index  #: (s,) rising within each edge
     along: Flags  #: (s,) True where the side runs from tail to head
     returns: Index  #: (r, 2) pairs of sides along which one face runs there and back; they are not among ``sides``
+
+    def plain(self, starts: Index) -> bool:
+        """Whether all faces are triangles of three vertices, of which none comes back to an edge or a vertex."""
+        return bool((np.diff(starts) == _TRIANGLE).all()) and len(self.sides) == starts[-1]
 
     @property
     def valence(self) -> Index:
@@ -76,7 +81,7 @@ def edges(corners: Index, starts: Index) -> Edges:
     openings over bridges has no border along them, and a face fallen in to a line changes nothing of its neighbours.
     A face that runs along an edge twice the same way counts twice.
 
-    O(m + vertices): two counting sorts, by the higher vertex, then by the lower one.
+    O(m + vertices): two counting sorts, by the higher vertex, then by the lower one; compiled.
 
     Examples
     --------
@@ -85,32 +90,71 @@ def edges(corners: Index, starts: Index) -> Edges:
     ([0, 0, 1, 1, 2], [1, 2, 2, 3, 3], [1, 1, 2, 1, 1])
     """
     below = int(corners.max()) + 1 if len(corners) else 0
-    here: Rows = corners.astype(narrow(below), copy=False)
-    to = here[following(starts)]
-    low, high = np.minimum(here, to), np.maximum(here, to)
-    order, _ = counting_order(high, below)
-    again, _ = counting_order(low[order], below)
-    order = order[again]
-    low, high = low[order], high[order]
-    real = low != high
-    if not real.all():
-        order, low, high = order[real], low[real], high[real]
-    first = np.ones(len(order), dtype=bool)
-    first[1:] = (low[1:] != low[:-1]) | (high[1:] != high[:-1])
-    at = np.flatnonzero(first)
-    along = here[order] == low
-    begin = np.append(at, len(order)).astype(np.intp)
-    sides = order.astype(np.intp)
-    found = Edges(
-        low[at].astype(np.intp), high[at].astype(np.intp), begin, sides, along, np.empty((0, 2), dtype=np.intp)
-    )
-    return _without_returns(found, starts)
+    to = _ends(corners, starts)
+    tail, head, begin, sides, along = _table(corners, to, _sides(corners, to, below))
+    return _without_returns(Edges(tail, head, begin, sides, along, np.empty((0, 2), dtype=np.intp)), starts)
+
+
+@compiled
+def _ends(corners: Index, starts: Index) -> Index:
+    """Vertex (m,) at which the side of each corner ends."""
+    to = np.empty(len(corners), dtype=np.intp)
+    for face in range(len(starts) - 1):
+        first, last = starts[face], starts[face + 1] - 1
+        for corner in range(first, last):
+            to[corner] = corners[corner + 1]
+        if last >= first:
+            to[last] = corners[first]
+    return to
+
+
+@compiled
+def _sides(corners: Index, to: Index, below: int) -> Index:
+    """Sides whose ends differ, by lower end, then by higher end, then by number."""
+    at_low, at_high = np.zeros(below + 1, dtype=np.intp), np.zeros(below + 1, dtype=np.intp)
+    count = 0
+    for corner in range(len(corners)):
+        if corners[corner] != to[corner]:
+            at_low[min(corners[corner], to[corner]) + 1] += 1
+            at_high[max(corners[corner], to[corner]) + 1] += 1
+            count += 1
+    for vertex in range(below):
+        at_low[vertex + 1] += at_low[vertex]
+        at_high[vertex + 1] += at_high[vertex]
+    by_high, sides = np.empty(count, dtype=np.intp), np.empty(count, dtype=np.intp)
+    for corner in range(len(corners)):
+        if corners[corner] != to[corner]:
+            high = max(corners[corner], to[corner])
+            by_high[at_high[high]] = corner
+            at_high[high] += 1
+    for row in range(count):
+        corner = by_high[row]
+        low = min(corners[corner], to[corner])
+        sides[at_low[low]] = corner
+        at_low[low] += 1
+    return sides
+
+
+@compiled
+def _table(corners: Index, to: Index, sides: Index) -> tuple[Index, Index, Index, Index, Flags]:
+    """Lower and higher end and first side of each edge, the sides, and whether they run to the higher end."""
+    tail, head, begin = np.empty_like(sides), np.empty_like(sides), np.empty(len(sides) + 1, dtype=np.intp)
+    along = np.empty(len(sides), dtype=np.bool_)
+    edge = -1
+    for row in range(len(sides)):
+        here, there = corners[sides[row]], to[sides[row]]
+        low, high = min(here, there), max(here, there)
+        along[row] = here == low
+        if edge < 0 or tail[edge] != low or head[edge] != high:
+            edge += 1
+            tail[edge], head[edge], begin[edge] = low, high, row
+    begin[edge + 1] = len(sides)
+    return tail[: edge + 1].copy(), head[: edge + 1].copy(), begin[: edge + 2].copy(), sides, along
 
 
 def _without_returns(found: Edges, starts: Index) -> Edges:
     """The same edges without the sides along which one face runs there and back."""
-    if bool((np.diff(starts) == _TRIANGLE).all()) and len(found.sides) == starts[-1]:
-        # A triangle of three sides runs along none of them twice.
+    if found.plain(starts):
         return found
     face = face_of(starts)[found.sides]
     edge = np.repeat(np.arange(len(found.tail)), found.valence)
@@ -146,16 +190,29 @@ def edge_of_side(found: Edges, corners: int) -> Index:
     return edge
 
 
-def side_links(found: Edges) -> tuple[Index, Index]:
-    """Pairs of sides that meet at an edge: the first of each edge with every other one.
+def faces_joined(found: Edges, face: Index, count: int, *, agreeing: bool) -> Index:
+    """Lowest face (count,) of those that each face is joined to over edges.
 
-    Returns
-    -------
-    one, two : (k,) int
+    Parameters
+    ----------
+    face : (m,) int
+        Of every corner.
+    count : int
+        Number of faces.
+    agreeing : bool
+        Only edges join where exactly two sides meet, and run opposite ways; else all do.
     """
-    valence = found.valence
-    begin = found.starts[:-1]
-    other = np.ones(len(found.sides), dtype=bool)
-    other[begin[valence > 0]] = False
-    one = np.repeat(found.sides[begin[valence > 1]], valence[valence > 1] - 1)
-    return one, found.sides[other]
+    label: Index = np.arange(count, dtype=np.intp)
+    _join_faces(label, face, found.starts, found.sides, found.along, agreeing)
+    return label
+
+
+@compiled
+def _join_faces(label: Index, face: Index, begin: Index, sides: Index, along: Flags, agreeing: bool) -> None:  # noqa: FBT001 - a kernel
+    for edge in range(len(begin) - 1):
+        first, stop = begin[edge], begin[edge + 1]
+        if agreeing and (stop - first != _PAIR or along[first] == along[first + 1]):
+            continue
+        for row in range(first + 1, stop):
+            join(label, face[sides[first]], face[sides[row]])
+    settle(label)

@@ -4,8 +4,9 @@
 import numpy as np
 
 from foparq.columns import Index
-from foparq.mesh.edges import Edges, side_links
-from foparq.mesh.grouping import Rows, counting_order, joined, narrow
+from foparq.mesh.compiled import compiled
+from foparq.mesh.edges import Edges
+from foparq.mesh.grouping import counting_order, join, join_all
 from foparq.mesh.polygons import face_of, following
 
 
@@ -36,7 +37,9 @@ def fans(corners: Index, starts: Index, edges: Edges, *, count: int) -> Index:
     fallen in to a line, of which no side bounds, is of no fan.
     O(m log m) at worst, linear on surfaces.
     """
-    label = joined(len(corners), *_links(corners, starts, edges))
+    label: Index = np.arange(len(corners), dtype=np.intp)
+    _join_corners(label, corners, following(starts), edges.starts, edges.sides)
+    join_all(label, *_own_corners(corners, starts, edges))
     # A face that bounds with a side that ends at a vertex does so with another one that begins there.
     bounds = np.zeros(len(corners), dtype=bool)
     bounds[edges.sides] = True
@@ -46,23 +49,26 @@ def fans(corners: Index, starts: Index, edges: Edges, *, count: int) -> Index:
     return found
 
 
-def _links(corners: Index, starts: Index, edges: Edges) -> tuple[Rows, Rows]:
-    """Pairs of corners of one fan, in whole numbers as narrow as will do."""
-    after = following(starts)
-    one, two = side_links(edges)
-    # Where two sides run opposite ways, the corner that begins one lies at the vertex where the other ends.
-    opposite = corners[one] != corners[two]
-    again, same = _own_corners(corners, starts)
-    kind = narrow(len(corners))
-    first: Rows = np.concatenate([one, after[one], again], dtype=kind, casting="same_kind")
-    del one
-    ahead = after[two]
-    begin, end = np.where(opposite, ahead, two), np.where(opposite, two, ahead)
-    return first, np.concatenate([begin, end, same], dtype=kind, casting="same_kind")
+@compiled
+def _join_corners(label: Index, corners: Index, after: Index, begin: Index, sides: Index) -> None:
+    """Join the corners at both ends of every edge."""
+    for edge in range(len(begin) - 1):
+        for row in range(begin[edge] + 1, begin[edge + 1]):
+            one, two = sides[begin[edge]], sides[row]
+            if corners[one] == corners[two]:
+                join(label, one, two)
+                join(label, after[one], after[two])
+            else:
+                # The sides run opposite ways: the corner that begins one lies at the vertex where the other ends.
+                join(label, one, after[two])
+                join(label, after[one], two)
 
 
-def _own_corners(corners: Index, starts: Index) -> tuple[Index, Index]:
+def _own_corners(corners: Index, starts: Index, edges: Edges) -> tuple[Index, Index]:
     """Pairs of corners of one face at one vertex."""
+    if edges.plain(starts):
+        none = np.empty(0, dtype=np.intp)
+        return none, none
     face = face_of(starts)
     order, _ = counting_order(corners, int(corners.max()) + 1 if len(corners) else 0)
     again = np.flatnonzero((corners[order[1:]] == corners[order[:-1]]) & (face[order[1:]] == face[order[:-1]]))

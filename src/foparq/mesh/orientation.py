@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from foparq.columns import Coordinates, Flags, Index, Reals
-from foparq.mesh.edges import Edges
+from foparq.mesh.edges import Edges, faces_joined
 from foparq.mesh.grouping import joined, numbered
 from foparq.mesh.polygons import blocks, face_of, following
 from foparq.mesh.vectors import cross, dot, lengths, overflowing
@@ -46,12 +46,10 @@ def orientation(starts: Index, edges: Edges) -> Orientation:
     """
     face = face_of(starts)
     count = len(starts) - 1
-    at = edges.starts[edges.paired]
-    one, two = face[edges.sides[at]], face[edges.sides[at + 1]]
-    against = edges.along[at] == edges.along[at + 1]
-    patch, _ = numbered(joined(count, one[~against], two[~against]))
-    patches = int(patch.max()) + 1 if count else 0
-    first, second = patch[one[against]], patch[two[against]]
+    patch, roots = numbered(faces_joined(edges, face, count, agreeing=True))
+    patches = len(roots)
+    at = edges.starts[edges.inconsistent]
+    first, second = patch[face[edges.sides[at]]], patch[face[edges.sides[at + 1]]]
     whole = joined(patches, first, second)
     twice = joined(2 * patches, np.concatenate([first, second]), np.concatenate([second, first]) + patches)
     # The lowest patch of a sheet labels the side that it is on.

@@ -14,7 +14,13 @@ _TRIANGLE = 3
 _HEADROOM = 2  #: powers of two that differences of coordinates need
 
 
-@overflowing
+class Sizes(NamedTuple):
+    """How large faces are."""
+
+    vectors: Reals  #: (f, 3) square metres, see :func:`area_vectors`
+    span: Reals  #: (f,) square metres, not less than the square of the distance of any two corners
+
+
 def area_vectors(points: Coordinates, corners: Index, starts: Index) -> Reals:
     """Area vectors of faces, after Newell.
 
@@ -40,18 +46,38 @@ def area_vectors(points: Coordinates, corners: Index, starts: Index) -> Reals:
     >>> area_vectors(square, np.arange(4), np.array([0, 4])).tolist()
     [[0.0, 0.0, 1.0]]
     """
-    found = np.zeros((len(starts) - 1, 3))
+    return sizes(points, corners, starts).vectors
+
+
+@overflowing
+def sizes(points: Coordinates, corners: Index, starts: Index) -> Sizes:
+    """Area vectors of faces, and how far their corners lie apart at most.
+
+    Parameters
+    ----------
+    points : (n, 3) float, metres
+    corners : (m,) int
+    starts : (f + 1,) int
+
+    Notes
+    -----
+    O(m), see :func:`area_vectors`. What is thin has little area for its span: few faces need a closer look.
+    """
+    found, span = np.zeros((len(starts) - 1, 3)), np.zeros(len(starts) - 1)
     for first, stop in blocks(starts):
         at = starts[first : stop + 1] - starts[first]
         place = points.take(corners[starts[first] : starts[stop]], axis=0)
         base = place[at[:-1]]
         if bool((np.diff(at) == _TRIANGLE).all()):
-            found[first:stop] = cross(place[1::3] - base, place[2::3] - base)
+            one, two = place[1::3] - base, place[2::3] - base
+            found[first:stop] = cross(one, two)
+            span[first:stop] = 2 * (dot(one, one) + dot(two, two))
             continue
         spoke = place - np.repeat(base, np.diff(at), axis=0)
         found[first:stop] = np.add.reduceat(cross(spoke, spoke[following(at)]), at[:-1], axis=0)
+        span[first:stop] = 4 * np.maximum.reduceat(dot(spoke, spoke), at[:-1])
     found *= 0.5
-    return found
+    return Sizes(found, span)
 
 
 class Triangles(NamedTuple):

@@ -11,7 +11,7 @@ from foparq.mesh.edges import Edges
 from foparq.mesh.vectors import dot, lengths, overflowing
 
 #: edges looked at in one step
-_CHUNK = 2**18
+_CHUNK = 2**16
 
 
 class Cones(NamedTuple):
@@ -23,8 +23,8 @@ class Cones(NamedTuple):
 
 
 @overflowing
-def cones(points: Coordinates, edges: Edges) -> Cones:
-    """Opening and height of the cone of edges at every vertex.
+def cones(points: Coordinates, edges: Edges, asked: Flags | None = None) -> Cones:
+    """Opening and height of the cone of edges at vertices.
 
     The axis of the cone is the mean direction of the edges of the vertex. ``opening`` is twice the greatest angle
     between an edge and the axis: 180 degrees or more on a plane, 109.5 degrees at the corner of a cube, a few degrees
@@ -35,10 +35,13 @@ def cones(points: Coordinates, edges: Edges) -> Cones:
     ----------
     points : (n, 3) float, metres
     edges : Edges
+    asked : (n,) bool, optional
+        Vertices that are asked for; all if left out.
 
     Returns
     -------
     Cones
+        Of vertices that are not asked for nothing is told, as of those at a boundary.
 
     Notes
     -----
@@ -46,29 +49,32 @@ def cones(points: Coordinates, edges: Edges) -> Cones:
     degrees at least. O(edges).
     """
     count = len(points)
+    asked = np.ones(count, dtype=bool) if asked is None else asked
+    rows = np.flatnonzero(asked[edges.tail] | asked[edges.head])
+    ends = edges.tail[rows], edges.head[rows]
     axis = np.zeros((count, 3))
-    for tail, head, unit, _ in _steps(points, edges):
+    for tail, head, unit, _ in _steps(points, *ends):
         for k in range(3):
             np.add.at(axis[:, k], tail, unit[:, k])
             np.subtract.at(axis[:, k], head, unit[:, k])
     size = lengths(axis)
     axis /= np.where(size > 0, size, 1.0)[:, None]
     least, rise = np.full(count, np.inf), np.full(count, np.inf)
-    for tail, head, unit, long in _steps(points, edges):
+    for tail, head, unit, long in _steps(points, *ends):
         for end, cosine in ((tail, dot(unit, axis[tail])), (head, -dot(unit, axis[head]))):
             np.minimum.at(least, end, cosine)
             np.minimum.at(rise, end, cosine * long)
-    inner = np.isfinite(least)
+    inner = np.isfinite(least) & asked
     rows = edges.boundary
     inner[edges.tail[rows]] = inner[edges.head[rows]] = False
     opening = np.where(inner, 2 * np.arccos(np.clip(least, -1.0, 1.0)), np.nan)
     return Cones(opening, np.where(inner, rise, np.nan), inner)
 
 
-def _steps(points: Coordinates, edges: Edges) -> Iterator[tuple[Index, Index, Reals, Reals]]:
+def _steps(points: Coordinates, tails: Index, heads: Index) -> Iterator[tuple[Index, Index, Reals, Reals]]:
     """Edges in chunks: tail, head, direction and length."""
-    for first in range(0, len(edges.tail), _CHUNK):
-        tail, head = edges.tail[first : first + _CHUNK], edges.head[first : first + _CHUNK]
+    for first in range(0, len(tails), _CHUNK):
+        tail, head = tails[first : first + _CHUNK], heads[first : first + _CHUNK]
         step = points[head] - points[tail]
         long = lengths(step)
         step /= np.where(long > 0, long, 1.0)[:, None]
@@ -102,5 +108,8 @@ def spikes(found: Cones, *, opening: float, height: float) -> Index:
 @overflowing
 def edge_lengths(points: Coordinates, edges: Edges) -> Reals:
     """Lengths (e,) of edges."""
-    step = points[edges.head] - points[edges.tail]
-    return lengths(step)
+    length = np.empty(len(edges.tail))
+    for first in range(0, len(length), _CHUNK):
+        part = slice(first, first + _CHUNK)
+        length[part] = lengths(points.take(edges.head[part], axis=0) - points.take(edges.tail[part], axis=0))
+    return length

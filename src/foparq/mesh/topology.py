@@ -18,12 +18,12 @@ from foparq.mesh.grouping import joined
 from foparq.mesh.holes import BorderSizes, border_sizes, fill_areas
 from foparq.mesh.orientation import Orientation, orientation
 from foparq.mesh.polygons import chosen, face_of, following, members
-from foparq.mesh.shape import area_vectors, flatness, triangle_shapes
+from foparq.mesh.shape import Sizes, flatness, sizes, triangle_shapes
 from foparq.mesh.spikes import cones, edge_lengths, spikes
 from foparq.mesh.tjunctions import TJunctions, t_junctions
 from foparq.mesh.triangulate import Triangulation, triangulate
 from foparq.mesh.turned import Turned, turned
-from foparq.mesh.vectors import lengths
+from foparq.mesh.vectors import lengths, overflowing
 from foparq.mesh.widths import by_width
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 _MOST_CORNERS = 5_000  #: of a polygon that is cut into triangles: that takes a step for each corner and each ear
 _TRIANGLE = 3
+_ROUNDING = 1e-14  #: of the span of a face, that its area may be off for each corner
 _KEPT = 2_000_000  #: pairs of faces that intersect; beyond, nothing is told of any
 
 
@@ -65,14 +66,20 @@ class Topology:
         return edges(self.corners, self.starts)
 
     @cached_property
-    def vectors(self) -> Reals:
-        """(f, 3) area vectors."""
-        return area_vectors(self.points, self.corners, self.starts)
+    def sizes(self) -> Sizes:
+        """Area vectors of the faces, and their spans."""
+        return sizes(self.points, self.corners, self.starts)
 
     @cached_property
     def areas(self) -> Reals:
         """(f,) areas."""
-        return lengths(self.vectors)
+        return lengths(self.sizes.vectors)
+
+    @overflowing
+    def thin(self, share: float) -> Index:
+        """Faces (k,) whose area is not greater than a share of their span, whatever rounding does."""
+        large = self.areas > (share + _ROUNDING * np.diff(self.starts)) * self.sizes.span
+        return np.flatnonzero(~large)
 
     @cached_property
     def fans(self) -> Index:
@@ -145,7 +152,9 @@ class Topology:
     @cached_property
     def turned(self) -> Turned:
         """Patches against their neighbours, and closed pieces that look inward."""
-        return turned(self.points, self.corners, self.starts, self.edges, self.components, self.orientation)
+        return turned(
+            self.points, self.corners, self.starts, self.edges, self.components, self.orientation, self.sizes.vectors
+        )
 
     @cached_property
     def triangulation(self) -> Triangulation:
@@ -155,10 +164,13 @@ class Topology:
     @cached_property
     def degenerate(self) -> Index:
         """Faces (k,) all of whose corners lie on one line, exactly; or with two corners in a row at one place."""
-        thin = collinear_faces(self.points, self.corners, self.starts)
-        here = self.points[self.corners]
-        thin[self.face[(here == here[following(self.starts)]).all(axis=1)]] = True
-        return np.flatnonzero(thin)
+        asked = self.thin(0.0)  # two corners of a triangle at one place make a line
+        line = asked[collinear_faces(self.points, *chosen(self.corners, self.starts, asked))]
+        polygons = np.flatnonzero(np.diff(self.starts) > _TRIANGLE)
+        corners, starts = chosen(self.corners, self.starts, polygons)
+        here = self.points[corners]
+        twice = face_of(starts)[(here == here[following(starts)]).all(axis=1)]
+        return np.union1d(line, polygons[twice]).astype(np.intp)
 
     @cached_property
     def crossing_groups(self) -> "Groups":
@@ -211,7 +223,9 @@ class Topology:
         cap : float
             Cosine that an angle of a cap does not reach.
         """
-        rows = np.flatnonzero(np.diff(self.starts) == _TRIANGLE)
+        # By the sine of the angle at the shortest side, or of the greatest angle.
+        rows = self.thin(max(needle / 2, np.sqrt(1 - min(cap, 0.0) ** 2) / 4))
+        rows = rows[np.diff(self.starts)[rows] == _TRIANGLE]
         triangles = self.corners[self.starts[rows, None] + np.arange(_TRIANGLE)]
         found = triangle_shapes(self.points, triangles)
         thin = (found.shortest < needle * found.longest) | (found.cosine < cap)
@@ -221,9 +235,13 @@ class Topology:
     def spikes(self, opening: float, rise: float) -> tuple[Index, Reals]:
         """Vertices (k,) whose cone is narrow and ``rise`` median edges high, and their heights (k,)."""
         length = edge_lengths(self.points, self.edges)
-        found = cones(self.points, self.edges)
-        middle = float(np.median(length)) if len(length) else 0.0
-        vertex = spikes(found, opening=opening, height=rise * middle)
+        height = rise * (float(np.median(length)) if len(length) else 0.0)
+        # No edge of a spike is shorter than it is high.
+        short = np.flatnonzero(length < height)
+        asked = np.ones(len(self.points), dtype=bool)
+        asked[self.edges.tail[short]] = asked[self.edges.head[short]] = False
+        found = cones(self.points, self.edges, asked)
+        vertex = spikes(found, opening=opening, height=height)
         return vertex, found.height[vertex]
 
     def boundary_faces(self, edge: Index) -> Index:

@@ -12,7 +12,9 @@ from foparq.mesh.edges import Edges
 from foparq.mesh.grouping import joined
 from foparq.mesh.orientation import Orientation, closed_components, signed_volumes
 from foparq.mesh.polygons import blocks, face_of, following
+from foparq.mesh.vectors import dot, overflowing
 
+_CHUNK = 2**16  #: faces looked at in one step
 _HALF = 0.5  #: a winding number is 1 within a closed surface and 0 outside
 
 
@@ -25,8 +27,9 @@ class Turned(NamedTuple):
 
 
 def turned(
-    points: Coordinates, corners: Index, starts: Index, edges: Edges, pieces: Components, found: Orientation
-) -> Turned:
+    points: Coordinates, corners: Index, starts: Index, edges: Edges, pieces: Components, found: Orientation,
+    vectors: Reals,
+) -> Turned:  # fmt: skip
     """Patches against their neighbours, and closed pieces that look inward.
 
     Parameters
@@ -37,7 +40,8 @@ def turned(
     edges : Edges
     pieces : Components
     found : Orientation
-        All of this surface.
+    vectors : (f, 3) float
+        Area vectors. All of this surface.
 
     Returns
     -------
@@ -51,13 +55,13 @@ def turned(
     closed piece is the wall of a cavity, and may. Whether it lies there is told by the winding number of the other
     around one of its vertices. O(m log m), and for each piece that looks inward O(m) of those that may hold it.
     """
-    inward = np.flatnonzero(_inward(points, corners, starts, edges, pieces))
+    inward = np.flatnonzero(_inward(points, corners, starts, edges, pieces, vectors))
     wrong = found.flipped.copy()
     # A piece that looks inward where its smaller part does not: the larger part is what is wrong.
     whole = np.isin(pieces.label, inward)
     wrong[whole] = ~wrong[whole]
-    label = _patches(starts, edges, wrong)
     faces = np.flatnonzero(wrong)
+    label = _patches(starts, edges, wrong) if len(faces) else pieces.label
     _, size = np.unique(label[faces], return_counts=True)
     first = first_of_each(label, by_place(points, corners, starts, faces))
     seam = _seams(points, corners, starts, edges, found)
@@ -89,13 +93,16 @@ def _seams(points: Coordinates, corners: Index, starts: Index, edges: Edges, fou
     return seams
 
 
-def _inward(points: Coordinates, corners: Index, starts: Index, edges: Edges, pieces: Components) -> Flags:
+def _inward(
+    points: Coordinates, corners: Index, starts: Index, edges: Edges, pieces: Components, vectors: Reals
+) -> Flags:
     """Pieces (k,) that are closed, consistent, look inward and lie within no other closed one."""
     count = len(pieces.faces)
     ends = closed_components(starts, edges, pieces.label, count=count)
     sound = ends.closed & ends.consistent
     inward = np.zeros(count, dtype=bool)
-    if not sound.any():
+    # Only what may be below zero is computed with its bounds of error.
+    if not (sound & ~(_volumes(points, corners, starts, pieces, vectors) > 0)).any():
         return inward
     volume = signed_volumes(points, corners, starts, pieces.label, count=count)
     inward = sound & (volume.volume < -volume.doubt)
@@ -107,6 +114,18 @@ def _inward(points: Coordinates, corners: Index, starts: Index, edges: Edges, pi
         if len(faces) and _within(vertex, points, corners, starts, faces, pieces.label):
             inward[piece] = False
     return inward
+
+
+@overflowing
+def _volumes(points: Coordinates, corners: Index, starts: Index, pieces: Components, vectors: Reals) -> Reals:
+    """(k,) three times the volumes of pieces, about a corner of each; rounded."""
+    base = points[corners[starts[pieces.lowest]]]
+    volume = np.zeros(len(base))
+    for first in range(0, len(vectors), _CHUNK):
+        label = pieces.label[first : first + _CHUNK]
+        arm = points.take(corners[starts[first : first + len(label)]], axis=0) - base[label]
+        volume += np.bincount(label, dot(arm, vectors[first : first + _CHUNK]), minlength=len(base))
+    return volume
 
 
 def _within(place: Reals, points: Coordinates, corners: Index, starts: Index, faces: Index, label: Index) -> bool:

@@ -8,6 +8,9 @@ import numpy as np
 from foparq.columns import Coordinates, Index
 from foparq.mesh.bvh import hierarchy
 from foparq.mesh.distance import nearest
+from foparq.mesh.edges import edges
+from foparq.mesh.fans import fans
+from foparq.mesh.grouping import joined
 from foparq.mesh.intersections import intersections
 from foparq.mesh.winding import winding
 
@@ -22,8 +25,11 @@ _SQUARES = (
 
 @cache
 def warm() -> None:
-    """Compile, or load, the kernels of intersections; once in a process. Children that are forked have them too."""
+    """Compile, or load, what rules need; once in a process. Children that are forked have them too."""
     points, corners = _triangles()
+    starts = np.arange(0, corners.size + 1, 3)
+    fans(corners.ravel(), starts, edges(corners.ravel(), starts), count=len(points))
+    joined(len(points), corners[:, 0], corners[:, 1])
     intersections(points, corners, keep=len(corners) ** 2)
 
 

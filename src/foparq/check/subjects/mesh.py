@@ -196,6 +196,14 @@ class MeshSubject(Subject):
         mesh = self.mesh
         rows = np.flatnonzero(self._of_groups(layers))
         counts = np.diff(mesh.starts)
+        none = np.empty(0, dtype=np.intp)
+        if mesh.usable.all():
+            zero = np.zeros(len(rows), dtype=np.intp)
+            faces = Faces(
+                short=zero.astype(bool), absent=zero, endless=zero,
+                place=np.broadcast_to(np.nan, (len(rows), 3)), **self._named_faces(rows),
+            )  # fmt: skip
+            return Taken(faces, none)
         face = np.repeat(np.arange(mesh.features), counts)
         endless = mesh.there.copy()
         endless[mesh.there] = ~mesh.finite[mesh.corners[mesh.there]]
@@ -212,7 +220,7 @@ class MeshSubject(Subject):
             endless=np.bincount(face[endless], minlength=mesh.features)[rows],
             place=place[rows], **self._named_faces(rows),
         )  # fmt: skip
-        return Taken(faces, np.empty(0, dtype=np.intp))
+        return Taken(faces, none)
 
     def _vertices(self, layers: Patterns) -> Taken:  # noqa: ARG002 - vertices belong to all groups
         mesh = self.mesh
