@@ -4,6 +4,7 @@
 import os
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
 from itertools import islice
 from typing import Any, TypeVar, cast
 
@@ -24,6 +25,14 @@ def compiled(kernel: _Kernel) -> _Kernel:
         made: Any = numba.njit(cache=True, **said)(kernel)
     except RuntimeError:  # nowhere to keep it: neither beside the source nor in the user's own folder
         made = numba.njit(cache=False, **said)(kernel)
+    keep: Any = made._cache.save_overload  # noqa: SLF001 - numba has no other way to be told
+
+    def kept(signature: object, data: object) -> None:
+        # Where nothing may be written, as in a guarded child, or no space is left, it is compiled again next time.
+        with suppress(OSError):
+            keep(signature, data)
+
+    made._cache.save_overload = kept  # noqa: SLF001 - as above
     of_types, plain = made.get_call_template, cast(Callable[[object], object], numba.types.unliteral)
 
     def of_plain_types(given: tuple[Any, ...], named: dict[str, Any]) -> object:

@@ -8,10 +8,9 @@ import numpy as np
 from foparq.columns import Coordinates, Index
 from foparq.mesh.bvh import hierarchy
 from foparq.mesh.distance import nearest
-from foparq.mesh.edges import edges
-from foparq.mesh.fans import fans
-from foparq.mesh.grouping import joined
 from foparq.mesh.intersections import intersections
+from foparq.mesh.topology import Topology
+from foparq.mesh.weld import welded
 from foparq.mesh.winding import winding
 
 #: two squares that cross, one that lies on the first, one that touches it: every way to meet
@@ -27,9 +26,9 @@ _SQUARES = (
 def warm() -> None:
     """Compile, or load, what rules need; once in a process. Children that are forked have them too."""
     points, corners = _triangles()
-    starts = np.arange(0, corners.size + 1, 3)
-    fans(corners.ravel(), starts, edges(corners.ravel(), starts), count=len(points))
-    joined(len(points), corners[:, 0], corners[:, 1])
+    whole = Topology(points, welded(points)[corners.ravel()], np.arange(0, corners.size + 1, 3))
+    for _ in (whole.fans, whole.turned, whole.duplicates, whole.rims):
+        pass
     intersections(points, corners, keep=len(corners) ** 2)
 
 
