@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The edges of a surface, and the sides of faces that run along them."""
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -14,7 +15,8 @@ _PAIR = 2
 _TRIANGLE = 3
 
 
-class Edges(NamedTuple):
+@dataclass(frozen=True)
+class Edges:
     """Undirected edges, sorted by their lower, then by their higher vertex.
 
     A side is named by the corner it begins at.
@@ -31,27 +33,27 @@ class Edges(NamedTuple):
         """Whether all faces are triangles of three vertices, of which none comes back to an edge or a vertex."""
         return bool((np.diff(starts) == _TRIANGLE).all()) and len(self.sides) == starts[-1]
 
-    @property
+    @cached_property
     def valence(self) -> Index:
         """Number of sides (e,) that bound at each edge."""
         return np.diff(self.starts)
 
-    @property
+    @cached_property
     def boundary(self) -> Index:
         """Edges (k,) where one face ends and none goes on."""
         return np.flatnonzero(self.valence == 1)
 
-    @property
+    @cached_property
     def non_manifold(self) -> Index:
         """Edges (k,) where more than two sides meet."""
         return np.flatnonzero(self.valence > _PAIR)
 
-    @property
+    @cached_property
     def paired(self) -> Index:
         """Edges (k,) where exactly two sides meet."""
         return np.flatnonzero(self.valence == _PAIR)
 
-    @property
+    @cached_property
     def inconsistent(self) -> Index:
         """Edges (k,) where exactly two sides meet and both run the same way: the faces look to different sides."""
         rows = self.paired
