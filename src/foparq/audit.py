@@ -45,6 +45,7 @@ OUT = "audit"  #: folder of the reports, beside the manifest
 _NOTHING = Reviewer()  #: the delivery's own words hold
 
 Progress = Callable[[str], None]
+COMPILING = "compiling"  #: a step: kernels for meshes, once on a machine
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -173,6 +174,11 @@ def _judged(
     delivery: Delivery, log: Sequence[str], terms: Terms, language: str, progress: Progress | None, *, loose: bool
 ) -> Audit:
     started = datetime.now(UTC).isoformat(timespec="seconds")
+    if delivery.meshes and progress is not None:
+        from foparq.mesh.warm import cold  # noqa: PLC0415 - a drawing never loads the kernels of meshes
+
+        if cold():
+            progress(COMPILING)
     profile, scale = terms.profile, terms.scale
     if not loose:
         prepare(delivery)

@@ -175,3 +175,15 @@ def test_the_order_of_faces_and_vertices_changes_no_finding(foparq: Command, tmp
         keys.append(sorted(json.loads(line)["key"] for line in out.splitlines()))
     assert keys[0] == keys[1]
     assert len(keys[0]) >= 1
+
+
+@pytest.mark.parametrize(("language", "said"), [("en", "once on this machine"), ("pt-BR", "uma só vez nesta máquina")])
+def test_compiling_is_announced_where_it_takes_seconds(
+    foparq: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, language: str, said: str
+) -> None:
+    path = obj(tmp_path / "bola.obj", *ball())
+    arguments = ("check", path, "--unit", "m", "--closed", "--lang", language)
+    assert foparq(*arguments)[2] == ""
+    monkeypatch.setattr("foparq.mesh.warm.cold", lambda: True)
+    code, _, err = foparq(*arguments)
+    assert (code, err.count(said), err.count("\n")) == (0, 1, 1)

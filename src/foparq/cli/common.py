@@ -14,6 +14,8 @@ from foparq.names import nearest
 from foparq.report.formats import SHOWN
 from foparq.report.words import LANGUAGES, Words, language_named
 
+#: steps that are told with a sentence of their own
+_SENTENCES = {"compiling": "cli.compiling"}
 _PATIENCE = 1.0  #: seconds before progress is shown
 
 
@@ -74,13 +76,20 @@ def format_option(say: Words, formats: tuple[str, ...] = SHOWN) -> click.Option:
 def progress_on_stderr(say: Words) -> Iterator[Callable[[str], None]]:
     """Tell what is being done on stderr, if it is a terminal and takes longer than a second.
 
+    What takes long the first time only is told in any case.
+
     Yields
     ------
     callable
         To be told the name of each step.
     """
     if sys.stderr is None or not sys.stderr.isatty():
-        yield lambda _step: None
+
+        def say_at_once(step: str) -> None:
+            if step in _SENTENCES and sys.stderr is not None:
+                click.echo(say(_SENTENCES[step]), err=True)
+
+        yield say_at_once
         return
     from rich.console import Console  # noqa: PLC0415 - only for a person at a terminal
     from rich.text import Text  # noqa: PLC0415
@@ -90,8 +99,8 @@ def progress_on_stderr(say: Words) -> Iterator[Callable[[str], None]]:
         status.stop()
 
         def tell(step: str) -> None:
-            if time.monotonic() - start > _PATIENCE:
-                status.update(Text(say("cli.progress", step=step)))
+            if time.monotonic() - start > _PATIENCE or step in _SENTENCES:
+                status.update(Text(say(_SENTENCES.get(step, "cli.progress"), step=step)))
                 status.start()
 
         yield tell

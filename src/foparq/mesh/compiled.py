@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from itertools import islice
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
@@ -41,6 +42,13 @@ def compiled(kernel: _Kernel) -> _Kernel:
     # A kernel called with a number written out is otherwise compiled anew for that number: most of the compiling.
     made.get_call_template = of_plain_types
     return cast(_Kernel, made)
+
+
+def is_kept(kernel: Callable[..., object]) -> bool:
+    """Whether a kernel was compiled before and kept on this machine."""
+    made = cast(Any, kernel)
+    folder = made.stats.cache_path
+    return folder is not None and any(Path(folder).glob(f"*.{made.py_func.__name__}-*.nbi"))
 
 
 def side_by_side(

@@ -7,9 +7,11 @@ import numpy as np
 
 from foparq.columns import Coordinates, Index
 from foparq.mesh.bvh import hierarchy
+from foparq.mesh.compiled import is_kept
 from foparq.mesh.distance import nearest
 from foparq.mesh.intersections import intersections
 from foparq.mesh.topology import Topology
+from foparq.mesh.trianglepairs import meeting
 from foparq.mesh.weld import welded
 from foparq.mesh.winding import winding
 
@@ -20,6 +22,11 @@ _SQUARES = (
     ((0.2, 0.2, 0), (3, 0.2, 0), (3, 3, 0), (0.2, 3, 0)),
     ((0, 0.3, 0), (0, 0.6, 0), (-1, 0.6, 1), (-1, 0.3, 1)),
 )
+
+
+def cold() -> bool:
+    """Whether kernels were never compiled and kept on this machine, so that warming takes seconds."""
+    return not is_kept(meeting)
 
 
 @cache
