@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Vertices that lie on the border of another face, where that face has no vertex."""
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from foparq.columns import Coordinates, Index, Reals
+from foparq.columns import Coordinates, Index, Reals, union
 from foparq.mesh.edges import Edges
 from foparq.mesh.polygons import chosen, face_of
 from foparq.mesh.vectors import dot, lengths, overflowing
@@ -15,6 +16,8 @@ from foparq.mesh.vectors import dot, lengths, overflowing
 _PAIRS = 2**20
 #: pieces of edges, for each edge, on the whole
 _PIECES = 4
+_LARGE = 10  #: a part of all edges, that makes a face large
+_MANY = 10_000  #: edges, from which a face may be large
 
 
 class TJunctions(NamedTuple):
@@ -59,15 +62,17 @@ def t_junctions(
     rows = edges.boundary
     rows = rows[np.isfinite(lengths(points[edges.head[rows]] - points[edges.tail[rows]]))]
     tail, head = edges.tail[rows], edges.head[rows]
-    asked = np.unique(np.concatenate([tail, head])) if vertices is None else vertices
+    asked = union(tail, head) if vertices is None else vertices
     empty = np.empty(0, dtype=np.intp)
     if not len(rows) or not len(asked):
         return TJunctions(empty, empty, np.empty(0), np.empty(0))
     face = face_of(starts)[edges.sides[edges.starts[rows]]]
-    found = [
-        _inside(points, corners, starts, tail[i], head[i], asked[j], face[i], rows[i], coincide)
-        for i, j in _near_pieces(points, tail, head, asked, coincide)
-    ]
+    found = [(empty, empty, np.empty(0), np.empty(0))]
+    for some, others in _apart(face, corners, starts, asked):
+        found += [
+            _inside(points, corners, starts, tail[i], head[i], others[j], face[i], rows[i], coincide)
+            for i, j in ((some[near], j) for near, j in _near_pieces(points, tail[some], head[some], others, coincide))
+        ]
     columns = [np.concatenate([part[k] for part in found]) for k in range(4)]
     order = np.lexsort((columns[1], columns[0]))
     vertex, edge = columns[0][order], columns[1][order]
@@ -76,6 +81,21 @@ def t_junctions(
     first[1:] = (vertex[1:] != vertex[:-1]) | (edge[1:] != edge[:-1])
     kept = order[first]
     return TJunctions(vertex[first], edge[first], columns[2][kept], columns[3][kept])
+
+
+def _apart(face: Index, corners: Index, starts: Index, asked: Index) -> Iterator[tuple[Index, Index]]:
+    """Places of edges in ``face``, and the vertices that are asked of them.
+
+    A face with a tenth of all edges is asked by itself: its own vertices are near to all of them, and not meant.
+    """
+    large = np.flatnonzero(_LARGE * np.bincount(face) >= max(len(face), _MANY))
+    for owner in large.tolist():
+        others = asked[~np.isin(asked, corners[starts[owner] : starts[owner + 1]])]
+        if len(others):
+            yield np.flatnonzero(face == owner), others
+    rest = np.flatnonzero(~np.isin(face, large))
+    if len(rest):
+        yield rest, asked
 
 
 def _near_pieces(
@@ -94,7 +114,12 @@ def _near_pieces(
     rounded = np.maximum(np.abs(points[tail]), np.abs(points[head])).max(axis=1) * 1e-15
     radius = ((long / count / 2 + coincide) * (1 + 1e-9) + rounded)[owner]
     tree = cKDTree(points[asked])
-    # Along the axes: squares of huge coordinates overflow.
+    # Along the axes: squares of huge coordinates overflow. An end is near to its piece, and seldom anything else.
+    gap, _ = tree.query(middle, k=[1, 2, 3], p=np.inf, distance_upper_bound=np.nextafter(radius.max(), np.inf))
+    own = (np.isin(tail, asked)[owner] & (place == 0)).astype(np.intp)
+    own += np.isin(head, asked)[owner] & (place == count[owner] - 1)
+    crowd = np.flatnonzero(gap[np.arange(len(owner)), own] <= radius)
+    middle, radius, owner = middle[crowd], radius[crowd], owner[crowd]
     near = tree.query_ball_point(middle, radius, p=np.inf, return_length=True)
     chunks: list[tuple[Index, Index]] = []
     chunk = np.cumsum(near) // _PAIRS
@@ -109,8 +134,8 @@ def _near_pieces(
 
 def _runs(value: Index) -> tuple[list[int], list[int]]:
     """Where runs of equal values begin and end."""
-    begin = np.flatnonzero(np.diff(value, prepend=-1))
-    return begin.tolist(), [*begin[1:].tolist(), len(value)]
+    begin = np.flatnonzero(np.diff(value, prepend=-1)).tolist()
+    return begin, [*begin, len(value)][1:]
 
 
 def _inside(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foparq.columns import Coordinates, Flags, Index, Reals
+from foparq.columns import Coordinates, Flags, Index, Reals, union
 from foparq.mesh.borders import Borders, borders
 from foparq.mesh.by_place import by_place, first_of_each
 from foparq.mesh.collinear import collinear_faces
@@ -170,7 +170,7 @@ class Topology:
         corners, starts = chosen(self.corners, self.starts, polygons)
         here = self.points[corners]
         twice = face_of(starts)[(here == here[following(starts)]).all(axis=1)]
-        return np.union1d(line, polygons[twice]).astype(np.intp)
+        return union(line, polygons[twice])
 
     @cached_property
     def crossing_groups(self) -> "Groups":
@@ -186,7 +186,7 @@ class Topology:
 
         rank = np.zeros(len(self.starts) - 1, dtype=np.intp)
         found = self.intersections
-        involved = np.unique(self.triangulation.face[np.concatenate([found.first, found.second])])
+        involved = union(self.triangulation.face[found.first], self.triangulation.face[found.second])
         rank[by_place(self.points, self.corners, self.starts, involved)] = np.arange(len(involved))
         return overlaps(found, self.triangulation.face, self.areas, rank)
 
@@ -291,7 +291,7 @@ class Topology:
         """Every face (m,) at some vertices."""
         asked = np.zeros(len(self.points), dtype=bool)
         asked[vertex] = True
-        return np.unique(self.face[asked[self.corners]])
+        return union(self.face[asked[self.corners]])
 
     def first_faces(self, vertex: Index) -> Index:
         """First face (k,) at each of some vertices that faces use."""

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from foparq.columns import Coordinates, Flags, Index, Reals
+from foparq.columns import Coordinates, Flags, Index, Reals, union
 from foparq.mesh.by_place import by_place, first_of_each
 from foparq.mesh.components import Components
 from foparq.mesh.edges import Edges
@@ -67,7 +67,7 @@ def turned(
     seam = _seams(points, corners, starts, edges, found)
     return Turned(
         np.concatenate([first, seam]), np.concatenate([size, np.full(len(seam), 2)]).astype(np.intp),
-        np.union1d(faces, seam).astype(np.intp),
+        union(faces, seam),
     )  # fmt: skip
 
 
@@ -87,7 +87,7 @@ def _seams(points: Coordinates, corners: Index, starts: Index, edges: Edges, fou
     pair = np.stack([face[edges.sides[at]], face[edges.sides[at + 1]]], axis=1)
     pair = pair[~found.orientable[found.sheet[pair[:, 0]]]]
     rank = np.zeros(len(starts) - 1, dtype=np.intp)
-    ordered = by_place(points, corners, starts, np.unique(pair))
+    ordered = by_place(points, corners, starts, union(pair.ravel()))
     rank[ordered] = np.arange(len(ordered))
     seams: Index = np.where(rank[pair[:, 0]] <= rank[pair[:, 1]], pair[:, 0], pair[:, 1])
     return seams
