@@ -139,6 +139,9 @@ def test_most_points_not_drawn_is_the_word_of_who_confirms(tmp_path: Path) -> No
         few = both(made, every[:1], np.array([0.0, 3.0, 0.0])).change(confirmed=(said,))
         quality = audited(few, tmp_path / f"{seed}-one").record.quality
         assert (quality.verdict, quality.why[0].message) == ("accepted", "verdict.accepted")
+        told = [dict(one.fields)["ids"] for one in quality.remarks if one.message == "evidence.absent-confirmed"]
+        assert told
+        assert all(ids == [str(made.ids[0])] for ids in told)
 
 
 @pytest.mark.parametrize(("share", "state"), [(0.8, ("accepted", "pass")), (1.1, ("undecided", "undecided"))])

@@ -83,6 +83,12 @@ def test_a_heap_of_strokes_is_one_joint() -> None:
     assert len(found.segment) == 6000
 
 
+@pytest.mark.parametrize(("depth", "touched"), [(5.0, 2), (-5.0, 0), (0.0, 0)])
+def test_a_stroke_touches_what_lies_in_its_own_depth(depth: float, touched: int) -> None:
+    lines = table(f"LINESTRING Z (-1 0 {depth}, 1 0 {depth})", "LINESTRING Z (0 0 5, 0 0.0001 5)")
+    assert len(joints(lines, np.array([False, True]), within=COINCIDE).segment) == touched
+
+
 Way = NDArray[np.float64]
 
 

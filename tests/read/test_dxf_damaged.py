@@ -161,6 +161,18 @@ def test_an_insert_goes_with_its_attributes(tmp_path: Path) -> None:
     assert (drawing.items.kind == "LINE").sum() == 11
 
 
+def test_an_insert_whose_attributes_do_not_end_is_told(tmp_path: Path) -> None:
+    document = ten_lines()
+    document.blocks.new("PORTA").add_line((0, 0), (0, 2))
+    document.modelspace().add_blockref("PORTA", (20, 0)).add_attrib("N", "P1", (20, 0))
+    document.modelspace().add_circle((0, 0), 1)
+    tags = tags_of(document, tmp_path)
+    first, stop = span(tags, b"SEQEND")
+    drawing = read_tags([*tags[:first], *tags[stop:]], tmp_path)
+    assert skipped(drawing) == {(MALFORMED, "INSERT"): 1}
+    assert (drawing.items.kind == "CIRCLE").sum() == 1
+
+
 def test_in_a_block_it_counts_at_every_insert_and_on_its_layer(tmp_path: Path) -> None:
     document = ten_lines()
     block = document.blocks.new("JANELA")

@@ -5,6 +5,7 @@ import sqlite3
 import struct
 import warnings
 from collections import Counter
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -312,3 +313,11 @@ def test_bubenec(shared: Path) -> None:
     assert shapely.is_valid(plots).all()
     # 84 gaps below 1 m2 and three larger holes, counted independently.
     assert shapely.get_num_interior_rings(shapely.get_parts(shapely.union_all(plots))).sum() == 87
+
+
+@pytest.mark.parametrize(("number", "said"), [(0, "GPKG"), (10200, "GPKG 1.2"), (10300, "GPKG 1.3")])
+def test_the_version_of_a_package_is_that_which_it_states(tmp_path: Path, number: int, said: str) -> None:
+    path = write(tmp_path / "a.gpkg", ["LINESTRING (0 0, 1 0)"])
+    with closing(sqlite3.connect(path)) as connection:
+        connection.execute(f"PRAGMA user_version = {number}")
+    assert read(path).reading.version == said

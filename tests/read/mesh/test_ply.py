@@ -369,3 +369,29 @@ def test_bounds(tmp_path: Path) -> None:
         assert refused(tmp_path, strip, faces=3).message == "mesh.too-many-faces"
         assert read(tmp_path, strip, faces=4).faces == 4
     assert refused(tmp_path, simple_ply(), bytes=100).message == "read.too-large"
+
+
+def test_a_header_is_no_longer_than_a_mebibyte(tmp_path: Path) -> None:
+    assert sound(read(tmp_path, long_header(1000)))
+    assert refused(tmp_path, long_header(1100)).message == "mesh.header-end"
+
+
+def long_header(lines: int) -> bytes:
+    """With so many comments of a thousand bytes."""
+    comments = b"".join(b"comment " + b"x" * 991 + b"\n" for _ in range(lines))
+    return simple_ply().replace(b"end_header", comments + b"end_header")
+
+
+@pytest.mark.parametrize("form", ORDERS)
+def test_strips_that_are_announced_and_not_there_change_nothing(tmp_path: Path, form: str) -> None:
+    vertices = ("vertex", [f"double {axis}" for axis in "xyz"], POINTS)
+    faces = ("face", ["list uchar int vertex_indices"], [(tuple(face),) for face in FACES])
+    strips = ("tristrips", ["uchar colour", "list int int vertex_indices"], [])
+    mesh = read(tmp_path, ply(form, [vertices, strips, faces]))
+    assert (places_of(mesh), faces_of(mesh)) == (list(POINTS), [list(face) for face in FACES])
+
+
+@pytest.mark.parametrize("form", ORDERS)
+def test_numbers_of_vertices_may_be_written_as_reals_that_are_whole(tmp_path: Path, form: str) -> None:
+    assert faces_of(read(tmp_path, simple_ply(form, whole="float"))) == [list(face) for face in FACES]
+    assert refused(tmp_path, simple_ply(form, whole="float", faces=[(0, 1, 1.5)])).message == "mesh.index"
