@@ -9,10 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.attacks.meshes import write_ply, write_stl
-from tests.attacks.surveyed_meshes import Answer, Delivery, added, answer, head
+from tests.attacks.surveyed_meshes import Answer, Delivery, added, answer, head, without, write
 from tests.mesh.files import Mesh, mesh
 from tests.read.mesh.gltf_files import pyramid
+from tests.tools.sound import unguarded
 
+from foparq.audit import audit
 from foparq.columns import Coordinates
 
 Q1 = {"Q1-X", "Q1-Y", "Q1-Z"}
@@ -163,3 +165,29 @@ def test_many_points_off_the_surface_are_looked_at_in_part(tmp_path: Path) -> No
     made = Delivery(n=1500, tables=("checkpoints",), points=lambda points: points + np.array([0.05, 0.02, 0.01]))
     told = answer(made, tmp_path / "delivery")
     assert "moved by 50 mm along x, 20 mm along y and 10 mm" in told.why
+
+
+def plate() -> Mesh:
+    """A tablet of half a metre, exactly in the plane z = 0."""
+    x, y = np.meshgrid(np.linspace(0, 0.5, 21), np.linspace(0, 0.5, 21), indexing="ij")
+    corner = np.arange(441).reshape(21, 21)
+    ring = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], axis=-1).reshape(-1, 4)
+    faces = np.concatenate([ring[:, [0, 1, 2]], ring[:, [0, 2, 3]]]).tolist()
+    return mesh(np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=-1), faces)
+
+
+@pytest.mark.parametrize(("missing", "state"), [(0, "pass"), (200, "fail")])
+def test_a_spreadsheet_drops_the_zeros_of_a_plane(missing: int, state: str, tmp_path: Path) -> None:
+    """Its column of heights says 0, which is no place to the metre: faces that are missing are missed."""
+    made = Delivery(
+        surface=lambda: without(plate(), np.arange(missing)),
+        surveyed=plate,
+        profile="et-doc-foparq-b",
+        tables=("features",),
+    )
+    folder = write(made, tmp_path / "delivery")
+    path = folder / "feicoes.csv"
+    path.write_text(path.read_text("utf-8").replace(",0.00000,", ",0,"), encoding="utf-8")
+    with unguarded():
+        told = Answer(audit(folder).record)
+    assert str(told.element("Q5").status) == state, told.why

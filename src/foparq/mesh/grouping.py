@@ -35,8 +35,7 @@ def joined(count: int, first: Rows, second: Rows) -> Index:
     Notes
     -----
     Trees whose root is their lowest number, with paths halved on the way (Tarjan and van Leeuwen 1984), compiled.
-    O((count + k) log count) at worst. Some ten times as fast as a search through a sparse matrix, with a third of the
-    memory.
+    O((count + k) log count) at worst. Five to seven times as fast on surfaces as a search through a sparse matrix.
 
     Examples
     --------

@@ -100,11 +100,10 @@ class SurfaceGround(Ground):
             # A table that a factor shrinks to a speck lies on anything; what was rounded is enlarged with all else.
             if np.linalg.norm(np.ptp(moved, axis=0)) < _SPECK * self.longest():
                 return np.zeros(len(moved), dtype=bool)
-            lies = np.zeros(len(moved), dtype=bool)
-            for rows in (spread(len(moved)), slice(None)):
-                lies[rows] = self.skin.foot(moved[rows]).distance <= within * max(1.0, factor)
-                if not lies[rows].all():
-                    break
+            some, lies = spread(len(moved)), np.zeros(len(moved), dtype=bool)
+            lies[some] = self.skin.foot(moved[some]).distance <= within * max(1.0, factor)
+            if len(some) < len(moved) and lies[some].all():
+                lies = self.skin.foot(moved).distance <= within * max(1.0, factor)
             return lies
 
         return by_axes_or_unit(places, UNIT_FACTORS, holds, turned=True) or by_fit(

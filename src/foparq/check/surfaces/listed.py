@@ -22,8 +22,8 @@ def count_on_surfaces(meshes: Sequence[Mesh], *, features: FeatureList | None, n
     """Look for the features of a list on the meshes of a delivery.
 
     A listed feature is *there* if the surface of a mesh of its facade lies within its tolerance of its place, and what
-    the printed digits of the list may hide. Nobody
-    can count the features of a surface: classes and facades of which one feature has no place are left out.
+    the printed digits of the list may hide. Nobody can count the features of a surface: classes and facades of which
+    one feature has no place are left out.
 
     Parameters
     ----------

@@ -53,7 +53,7 @@ def unlisted(skin: Skin, places: Coordinates, more: Reals, *, spacing: float) ->
     faces = np.flatnonzero(area > 0)
     piece = _pieces(skin, faces)
     far = strange & (apart > _FAR * spacing) & (area[owner] > 0)
-    piece = _joined(piece, faces, parts[far].mean(axis=1), owner[far], spacing)
+    piece = _as_one(piece, faces, parts[far].mean(axis=1), owner[far], spacing)
     of_piece = np.bincount(piece, weights=area[faces])
     kept = of_piece >= spacing**2
     where = None
@@ -116,7 +116,7 @@ def _pieces(skin: Skin, faces: Index) -> Index:
     return Topology(skin.points, *chosen(skin.shape.corners, skin.shape.starts, faces)).components.label
 
 
-def _joined(piece: Index, faces: Index, far: Coordinates, owner: Index, spacing: float) -> Index:
+def _as_one(piece: Index, faces: Index, far: Coordinates, owner: Index, spacing: float) -> Index:
     """(k,) pieces of faces, those that are near each other as one: places of them that are far from the list are."""
     if not len(far):
         return piece

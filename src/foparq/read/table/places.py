@@ -24,7 +24,8 @@ def places_of(sheet: Sheet) -> tuple[Reals, Reals, Reals]:
     tol : (n,) metres
         NaN where not given.
     printed : (3,) metres
-        Half the last printed digit of the places, by axis.
+        Half the last printed digit of the places, by axis; of an axis along which all are alike, that of the finest
+        one: spreadsheets drop the zeros of a plane at 0.000.
 
     Raises
     ------
@@ -45,4 +46,7 @@ def places_of(sheet: Sheet) -> tuple[Reals, Reals, Reals]:
     if len(wrong):
         raise sheet.fault("table.not-positive", int(wrong[0]), "tol", example="0.01")
     place = np.column_stack([found[axis] for axis in _AXES])
-    return place, found["tol"], np.array([half[axis] for axis in _AXES])
+    printed = np.array([half[axis] for axis in _AXES])
+    alike = np.array([len(set(found[axis][np.isfinite(found[axis])].tolist())) <= 1 for axis in _AXES])
+    printed[alike] = printed[~alike].min(initial=printed.max())
+    return place, found["tol"], printed
